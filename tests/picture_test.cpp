@@ -131,6 +131,14 @@ TEST(Picture, WhatIsLevelAtZeroIsNotFilledWithTheLine) {
   EXPECT_LT(dark_pixels(image), 3 * line);
 }
 
+TEST(Picture, WhereAFieldIsAsSmallAsItGetsThereIsNoLine) {
+  io::Scene scene = square_scene();
+  scene.isolines = 10;
+  for (double& x : scene.values) x = std::max(x, 0.0);
+  const io::Image image = io::draw_picture(scene, small());
+  for (const double x : {0.492, 0.496, 0.5, 0.504}) EXPECT_GT(pixel(image, x, 0.45)[0], 200) << x;
+}
+
 TEST(Picture, SlopesAtVerticesAreTheFieldsOwn) {
   PolygonSoup soup = test::grid_soup(6, 6);
   for (Eigen::Index v = 0; v < soup.points.rows(); ++v)

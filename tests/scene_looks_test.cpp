@@ -144,6 +144,13 @@ TEST(SceneStyle, NiceSpacing) {
   EXPECT_TRUE(io::nice_ticks(0, 1, 1e-9).empty());
 }
 
+TEST(SceneStyle, LabelsHaveTheDigitsThatTellThemApart) {
+  EXPECT_EQ(io::label_text(0.1 + 0.2), "0.3");
+  EXPECT_EQ(io::label_text(100000.5, 0.05), "100000.5");
+  EXPECT_EQ(io::label_text(-99999.5, 0.05), "-99999.5");
+  EXPECT_EQ(io::label_text(0, 0.05), "0");
+}
+
 // Shown first or among others, and where it is nothing but 0 and 1.
 TEST(SceneStyle, ConfidenceHasColoursFromZeroToOne) {
   io::Scene scene = io::make_scene(test::octasphere_soup(4));

@@ -159,6 +159,12 @@ TEST(SceneStyle, SignedFieldsDivergeAboutZero) {
   io::FieldStyle style = io::field_style(scene);
   EXPECT_TRUE(style.diverging);
   EXPECT_NEAR(io::colour_position(style, 0), 0.5, 1e-12);
+  scene.colour_range = std::array<double, 2>{-0.2, 0.6};
+  const io::FieldStyle asked = io::field_style(scene);
+  for (const auto& [value, place] : std::vector<std::pair<double, double>>{
+           {-1, 0}, {-0.2, 0}, {-0.1, 0.25}, {0, 0.5}, {0.3, 0.75}, {0.6, 1}, {1, 1}})
+    EXPECT_NEAR(io::colour_position(asked, value), place, 1e-12) << value;
+  scene.colour_range.reset();
   scene.values = scene.values.array() + 1.0;
   scene.values[0] = infinity;
   style = io::field_style(scene);

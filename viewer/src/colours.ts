@@ -58,6 +58,19 @@ export function colourMap(name: string): Uint8Array {
   return bytes;
 }
 
+/** Where between its ends a map has its middle, 0..1: of two hues at 0, however far from it the ends are. */
+export function middleOf(map: string, low: number, high: number): number {
+  if (map !== "diverging" || !(high > low)) return 0.5;
+  return (Math.min(high, Math.max(low, 0)) - low) / (high - low);
+}
+
+/** The place in a map, 0..1, of what is a part 0..1 of the way between its ends. */
+export function placeInMap(part: number, middle: number): number {
+  const u = Math.min(1, Math.max(0, part));
+  if (u === middle) return 0.5;
+  return u < middle ? (0.5 * u) / middle : 0.5 + (0.5 * (u - middle)) / (1 - middle);
+}
+
 /** The colour of a region by its number. */
 export function regionColour(number: number): Rgb {
   const n = regions.length - 1;

@@ -4,7 +4,8 @@ import { mapNames } from "./colours";
 import { drawNumbers } from "./drawings";
 import { element, fillSelect, input, say, select } from "./elements";
 import { Legend } from "./legend";
-import { between, numberText, spacings } from "./numbers";
+import { commonField } from "./field";
+import { between, fineOf, numberText, spacings } from "./numbers";
 import type { Insets } from "./camera";
 import { shadings, type Field, type Shading } from "./scene";
 import type { Pane } from "./pane";
@@ -12,6 +13,8 @@ import type { ResultView } from "./view";
 
 export class Controls {
   readonly legend = new Legend(element<HTMLCanvasElement>("legend"));
+  /** Of a pane with another field. */
+  private readonly legendBeside = new Legend(element<HTMLCanvasElement>("legend-beside"));
   spacing = 0;
   private merged: Field | null = null;  // the range of the panes that show the field
   private same: Pane[] = [];            // those
@@ -19,6 +22,7 @@ export class Controls {
   private map = "";
   private range: [number, number] = [0, 0];
   private histogram: Float64Array | null = null;
+  private histogramBeside: Float64Array | null = null;
   private numbersTimer = 0;
   private readonly numbers = element<HTMLCanvasElement>("numbers");
 
@@ -49,12 +53,13 @@ export class Controls {
       });
     }
     this.legend.onRange = (low, high) => this.useRange(low, high, true);
-    for (const id of ["range-low", "range-high"]) input(id).addEventListener("change", () => {
-      const read = (name: string, otherwise: number) => {
-        const x = Number(input(name).value.replace(",", "."));
-        return input(name).value.trim() !== "" && Number.isFinite(x) ? x : otherwise;
-      };
-      this.useRange(read("range-low", this.merged?.low ?? 0), read("range-high", this.merged?.high ?? 0), true);
+    (["low", "high"] as const).forEach((end, i) => {
+      const box = input(`range-${end}`);
+      box.addEventListener("change", () => {
+        const x = Number(box.value.replace(",", ".")), range: [number, number] = [...this.range];
+        range[i] = box.value.trim() !== "" && Number.isFinite(x) ? x : this.merged?.[end] ?? 0;
+        this.useRange(...range, true);
+      });
     });
     const shading = select("shading"), asked = address.get("shading") ?? view.scene.shading;
     const open = view.panes.some((pane) => pane.hasOcclusion);
@@ -136,21 +141,19 @@ export class Controls {
       this.address.set("field", index === 0 ? null : name ?? null);
       for (const key of ["map", "spacing", "range"]) this.address.set(key, null);
     }
-    const first = fields[0] ?? null;
-    this.merged = first && {
-      ...first,
-      low: Math.min(...fields.map((f) => f.low)), high: Math.max(...fields.map((f) => f.high)),
-      colourLow: Math.min(...fields.map((f) => f.colourLow)), colourHigh: Math.max(...fields.map((f) => f.colourHigh)),
-      infinite: fields.some((f) => f.infinite),
-    };
+    this.merged = commonField(fields);
     const field = this.merged, varies = field !== null && field.high > field.low && !field.discrete;
     element("legend").hidden = field === null;
     element("path-row").hidden = this.view.panes.every((pane) => !pane.hasWays);
     element("map-row").hidden = element("range-row").hidden = !varies;
     element("isolines-row").hidden = !varies || field.at === "face";
     element("labels-row").hidden = element("isolines-row").hidden;
+    const other = this.beside, shares = (pane: Pane, { discrete, low, high }: Field) =>
+      pane.histogram(discrete ? Math.round(high - low) + 1 : 48, low, high);
+    element("legend-beside").hidden = other === null;
+    this.histogramBeside = other?.field ? shares(other, other.field) : null;
     if (!field) return this.fit();
-    this.histogram = this.view.panes[0].histogram(field.discrete ? Math.round(field.high - field.low) + 1 : 48, field.low, field.high);
+    this.histogram = shares(this.view.panes[0], field);
     this.map = select("map").value = field.map;
     this.steps = field.levels.length ? [] : spacings(field.low, field.high);
     input("spacing").hidden = element("spacing-text").hidden = this.steps.length === 0;
@@ -166,11 +169,22 @@ export class Controls {
     this.fit();
   }
 
+  /** A pane whose field is another one, with colours of its own. */
+  private get beside(): Pane | null {
+    return this.view.panes.find((pane) => pane.field !== null && !this.same.includes(pane)) ?? null;
+  }
+
+  /** Values at the ends of the colours; of two hues that are chosen, as far on both sides of 0. */
+  private colourEnds({ map, low, high, colourLow, colourHigh }: Field): [number, number] {
+    const reach = Math.max(Math.abs(low), Math.abs(high));
+    return this.map === "diverging" && map !== "diverging" ? [-reach, reach] : [colourLow, colourHigh];
+  }
+
   private useColours(): void {
     const field = this.merged;
     if (!field) return;
     for (const pane of this.same) {
-      pane.look.setColours(this.map, field.colourLow, field.colourHigh);
+      pane.look.setColours(this.map, ...this.colourEnds(field));
       pane.volume?.tracer?.recolour(pane.volume.level);
     }
     this.drawLegend();
@@ -193,14 +207,22 @@ export class Controls {
   private useRange(low: number, high: number, write: boolean): void {
     const field = this.merged;
     if (!field) return;
-    this.range = low <= high ? [Math.max(low, field.low), Math.min(high, field.high)] : [field.low, field.high];
-    if (!(this.range[0] <= this.range[1])) this.range = [field.low, field.high];
+    // What an address or a box has rounded is the end itself.
+    const near = 1e-6 * (field.high - field.low);
+    const inside = (x: number) => (x <= field.low + near ? field.low : x >= field.high - near ? field.high : x);
+    const some = low <= high && low <= field.high && high >= field.low;
+    this.range = some ? [inside(low), inside(high)] : [field.low, field.high];
     for (const pane of this.same) pane.look.setRange(...this.range);
-    const round = (x: number, whole: boolean) => (whole ? x : Number(x.toPrecision(5)));
-    input("range-low").value = numberText(round(this.range[0], this.range[0] === field.low));
-    input("range-high").value = numberText(round(this.range[1], this.range[1] === field.high));
+    const fine = fineOf(field.low, field.high);
+    ["range-low", "range-high"].forEach((id, i) => {
+      const box = input(id), text = numberText(this.range[i], fine);
+      box.value = text;
+      const narrow = text.replace(/[^.-]/g, "").length;
+      box.style.setProperty("--letters", String(Math.max(5, text.length - 0.5 * narrow)));
+    });
     const whole = this.range[0] === field.low && this.range[1] === field.high;
-    if (write) this.address.set("range", whole ? null : this.range.map((x) => Number(x.toPrecision(6))).join(","));
+    const texts = this.range.map((x) => Number(numberText(x, 0.01 * fine)));
+    if (write) this.address.set("range", whole ? null : texts.join(","));
     this.drawLegend();
     this.view.ask();
   }
@@ -227,22 +249,42 @@ export class Controls {
     const canvas = this.legend.canvas, stage = element("stage");
     const across = window.matchMedia("(max-width: 700px)").matches || this.view.panes.length > 1;
     canvas.classList.toggle("across", across);
-    if (!this.merged || canvas.hidden) return { right: 0, bottom: 0 };
-    const size = { width: stage.clientWidth, height: stage.clientHeight };
-    this.legend.draw({
-      field: this.merged, map: this.map || this.merged.map, colourLow: this.merged.colourLow, colourHigh: this.merged.colourHigh,
-      range: this.range, histogram: this.histogram, infiniteColour: this.view.scene.infiniteColour,
-    }, size, Math.min(window.devicePixelRatio || 1, 2), across);
-    return across ? { right: 0, bottom: canvas.offsetHeight } : { right: canvas.offsetWidth + 20, bottom: 0 };
+    const other = this.beside, { infiniteColour } = this.view.scene;
+    const ratio = Math.min(window.devicePixelRatio || 1, 2);
+    const size = { width: stage.clientWidth / (other ? 2 : 1), height: stage.clientHeight };
+    if (other?.field) {
+      const { field } = other, { map, colourLow, colourHigh } = field;
+      this.legendBeside.draw({
+        field, map, colourLow, colourHigh, infiniteColour,
+        range: [field.low, field.high], fixed: true, histogram: this.histogramBeside,
+      }, size, ratio, true);
+    }
+    if (this.merged && !canvas.hidden) {
+      const field = this.merged, [colourLow, colourHigh] = this.colourEnds(field);
+      this.legend.draw({
+        field, map: this.map || field.map, colourLow, colourHigh, infiniteColour,
+        range: this.range, histogram: this.histogram,
+      }, size, ratio, across);
+    }
+    const bottom = Math.max(...this.legends.map((one) => one.offsetHeight), 0);
+    return across ? { right: 0, bottom } : { right: canvas.hidden ? 0 : canvas.offsetWidth + 20, bottom: 0 };
   }
 
-  /** Numbers on lines: gone while the view moves, there once it rests. */
+  /** Those that are shown. */
+  get legends(): HTMLCanvasElement[] {
+    return [this.legend.canvas, this.legendBeside.canvas].filter((canvas) => !canvas.hidden);
+  }
+
+  private get numbersWanted(): boolean {
+    return input("labels").checked && input("isolines").checked && !element("labels-row").hidden;
+  }
+
+  /** Numbers on lines: gone while what is in sight changes, there once it rests. */
   afterFrame(): void {
     window.clearTimeout(this.numbersTimer);
-    const wanted = input("labels").checked && input("isolines").checked && !element("labels-row").hidden;
     if (this.numbers.width > 1) this.numbers.width = 1;
     this.written = 0;
-    if (wanted) this.numbersTimer = window.setTimeout(() => this.writeNumbers(), 120);
+    if (this.numbersWanted) this.numbersTimer = window.setTimeout(() => this.writeNumbers(), 120);
   }
 
   /** How many numbers are on lines now. */
@@ -255,8 +297,16 @@ export class Controls {
     const context = this.numbers.getContext("2d");
     if (!context) return;
     context.scale(ratio, ratio);
-    const style = { spacing: this.spacing, ink: "#000", paper: "#fff" };
-    this.written = this.view.panes.reduce((sum, _, i) => sum + drawNumbers(context, this.view, i, (i * clientWidth) / this.view.panes.length, style), 0);
+    this.written = this.drawNumbers(context, clientWidth, 1);
+  }
+
+  /** The numbers on lines of a picture of that width, if they are wanted; returns how many. */
+  drawNumbers(context: CanvasRenderingContext2D, width: number, scale: number): number {
+    if (!this.numbersWanted) return 0;
+    return this.view.panes.reduce((sum, pane, i) => {
+      const spacing = this.same.includes(pane) ? this.spacing : pane.field?.spacing ?? 0;
+      return sum + drawNumbers(context, this.view, i, (i * width) / this.view.panes.length, { spacing, scale });
+    }, 0);
   }
 
   /** The value of the field at a part of its range, for tests and saving. */

@@ -1,6 +1,6 @@
 // What can be saved: isolines as a drawing, the surface as a file; and the numbers on lines.
 import { valueAt } from "./field";
-import { numberText } from "./numbers";
+import { fineOfLevels, numberText } from "./numbers";
 import type { Pane } from "./pane";
 import type { ResultView } from "./view";
 
@@ -45,6 +45,7 @@ function chains(ends: number[]): number[][] {
 /** The isolines of a pane that are in sight, as an SVG drawing of the picture's size. */
 export function isolineSvg(view: ResultView, index: number, size: { width: number; height: number }, style: LineStyle): string {
   const pane = view.panes[index], visible = view.visibility(index), paths: string[] = [];
+  const fine = fineOfLevels(pane.levels(style.spacing));
   for (const { level, ends } of pane.lines(style.spacing)) {
     const flat: number[] = [];
     for (let i = 0; i < ends.length; i += 6) {
@@ -57,7 +58,8 @@ export function isolineSvg(view: ResultView, index: number, size: { width: numbe
       for (let i = 2; i < line.length; i += 2) text += `L${line[i].toFixed(1)} ${line[i + 1].toFixed(1)}`;
       return text;
     }).join("");
-    paths.push(`<path d="${d}" stroke-width="${level === 0 ? 2.2 : 1}"><title>${escape(numberText(level))}</title></path>`);
+    const title = escape(numberText(level, fine));
+    paths.push(`<path d="${d}" stroke-width="${level === 0 ? 2.2 : 1}"><title>${title}</title></path>`);
   }
   const { width, height } = size;
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">\n` +
@@ -86,20 +88,31 @@ export function surfaceObj(pane: Pane): string {
   return out.join("\n") + "\n";
 }
 
-/** Writes numbers on the lines in sight; returns how many. */
-export function drawNumbers(context: CanvasRenderingContext2D, view: ResultView, index: number, offset: number, style: LineStyle): number {
+export interface NumberStyle {
+  spacing: number;
+  /** Of the text: 1 on the page. */
+  scale: number;
+}
+
+/** Writes numbers on the lines in sight, on a picture whose pane begins at `offset`; returns how many. */
+export function drawNumbers(
+  context: CanvasRenderingContext2D, view: ResultView, index: number, offset: number, style: NumberStyle,
+): number {
+  const { spacing, scale } = style;
   const pane = view.panes[index], visible = view.visibility(index), taken: { x: number; y: number }[] = [];
-  context.font = '11px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif';
+  const fine = fineOfLevels(pane.levels(spacing));
+  context.font = `${11 * scale}px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif`;
   context.textAlign = "center";
   context.textBaseline = "middle";
   const far = (x: number, y: number, room: number) => taken.every((q) => Math.hypot(q.x - x, q.y - y) > room);
-  for (const { level, ends } of pane.lines(style.spacing)) {
+  for (const { level, ends } of pane.lines(spacing)) {
+    const text = numberText(level, fine);
     const count = ends.length / 6, stride = Math.max(1, Math.floor(count / 80));
     let mine = 0;
     for (let s = Math.floor(stride / 2); s < count && mine < 3 && taken.length < 80; s += stride) {
       const a = view.orbit.project(ends.slice(6 * s, 6 * s + 3)), b = view.orbit.project(ends.slice(6 * s + 3, 6 * s + 6));
       const x = (a.x + b.x) / 2, y = (a.y + b.y) / 2;
-      if (!far(x, y, mine ? 110 : 44) || !visible(x, y, (a.depth + b.depth) / 2)) continue;
+      if (!far(x, y, (mine ? 110 : 44) * scale) || !visible(x, y, (a.depth + b.depth) / 2)) continue;
       let angle = Math.atan2(b.y - a.y, b.x - a.x);
       if (Math.cos(angle) < 0) angle += Math.PI;
       taken.push({ x, y });
@@ -107,11 +120,11 @@ export function drawNumbers(context: CanvasRenderingContext2D, view: ResultView,
       context.save();
       context.translate(x + offset, y);
       context.rotate(angle);
-      context.lineWidth = 3.5;
+      context.lineWidth = 3.5 * scale;
       context.strokeStyle = "rgba(255, 255, 255, 0.9)";
-      context.strokeText(numberText(level), 0, 0);
+      context.strokeText(text, 0, 0);
       context.fillStyle = "#14181f";
-      context.fillText(numberText(level), 0, 0);
+      context.fillText(text, 0, 0);
       context.restore();
     }
   }

@@ -86,6 +86,25 @@ export function gradientField(field: Field, surface: Surface, radius: number): F
   return { ...made, colourLow: -reach, colourHigh: reach };
 }
 
+/** What fields of one name that are shown side by side have in common: range and colours. */
+export function commonField(fields: Field[]): Field | null {
+  const first = fields[0], signed = fields.find((field) => field.diverging) ?? null;
+  if (!first) return null;
+  const least = (key: "low" | "colourLow") => Math.min(...fields.map((field) => field[key]));
+  const most = (key: "high" | "colourHigh") => Math.max(...fields.map((field) => field[key]));
+  let colourLow = least("colourLow"), colourHigh = most("colourHigh");
+  // Ends that were asked for are those of all of them.
+  const alike = fields.every((field) => field.colourLow === colourLow && field.colourHigh === colourHigh);
+  if (signed && !alike) {
+    colourHigh = Math.max(Math.abs(colourLow), Math.abs(colourHigh));
+    colourLow = -colourHigh;
+  }
+  return {
+    ...first, low: least("low"), high: most("high"), colourLow, colourHigh,
+    map: (signed ?? first).map, diverging: signed !== null, infinite: fields.some((field) => field.infinite),
+  };
+}
+
 /** a - b of two fields of one surface. */
 export function differenceField(a: Field, b: Field): Field | null {
   if (!a.values || !b.values || a.at !== b.at || a.values.length !== b.values.length) return null;

@@ -1,7 +1,7 @@
-// The colour bar with numbers and a histogram, or the list of regions; drawn on a canvas so that saved pictures
-// can carry it. Dragging along the bar keeps a range of values.
-import { colourMap, css, regionColour } from "./colours";
-import { niceSpacing, niceTicks, numberText } from "./numbers";
+// The colour bar with numbers and a histogram, or a list of colours, of regions or of the one value there is; drawn on
+// a canvas so that saved pictures can carry it. Dragging along the bar keeps a range of values.
+import { colourMap, css, middleOf, placeInMap, regionColour } from "./colours";
+import { fineOf, niceSpacing, niceTicks, numberText } from "./numbers";
 import type { Field } from "./scene";
 
 export interface LegendState {
@@ -14,6 +14,14 @@ export interface LegendState {
   /** Shares of the area in equal parts from low to high, or null. */
   histogram: Float64Array | null;
   infiniteColour: ArrayLike<number>;
+  /** Without handles: the range cannot be dragged. */
+  fixed?: boolean;
+}
+
+/** A colour and what it stands for. */
+interface Row {
+  label: string;
+  colour: string;
 }
 
 const pad = 12, bar = 18, most = 24;
@@ -65,8 +73,10 @@ export class Legend {
   draw(state: LegendState, stage: { width: number; height: number }, ratio: number, across: boolean): void {
     this.state = state;
     this.across = across;
-    if (state.field.discrete) this.drawRegions(state, stage, ratio, across);
-    else this.drawBar(state, stage, ratio, across);
+    const { field } = state;
+    if (field.discrete) this.drawRows(state, this.regions(state), stage, ratio, across);
+    else if (field.high > field.low) this.drawBar(state, stage, ratio, across);
+    else this.drawRows(state, this.oneValue(state), stage, ratio, across);
   }
 
   private begin(width: number, height: number, ratio: number): CanvasRenderingContext2D {
@@ -90,8 +100,18 @@ export class Legend {
     return Math.max(0, ...texts.map((text) => context.measureText(text).width));
   }
 
-  private drawRegions({ field, histogram, infiniteColour }: LegendState, stage: { width: number }, ratio: number, across: boolean): void {
-    const rows: { label: string; colour: string }[] = [];
+  private colourOf(state: LegendState): (value: number) => string {
+    const { map, colourLow: low, colourHigh: high } = state;
+    const colours = colourMap(map), middle = middleOf(map, low, high);
+    return (value) => {
+      const part = high > low ? (value - low) / (high - low) : 0.5;
+      const k = 3 * Math.round(255 * placeInMap(part, middle));
+      return css(colours.subarray(k, k + 3));
+    };
+  }
+
+  private regions({ field, histogram }: LegendState): Row[] {
+    const rows: Row[] = [];
     const count = Math.round(field.high - field.low) + 1;
     for (let i = 0; i < count; ++i) {
       const number = Math.round(field.low) + i, share = histogram ? histogram[i] : 1;
@@ -99,12 +119,25 @@ export class Legend {
       const name = field.labels.get(number) ?? String(number);
       rows.push({ label: histogram ? `${name}  ·  ${(100 * share).toPrecision(2)} %` : name, colour: css(regionColour(number)) });
     }
+    return rows;
+  }
+
+  /** Of a field that is the same all over; none where nothing is reached. */
+  private oneValue(state: LegendState): Row[] {
+    const { field, histogram } = state;
+    if (field.infinite && histogram?.every((share) => share === 0)) return [];
+    return [{ label: numberText(field.low), colour: this.colourOf(state)(field.low) }];
+  }
+
+  private drawRows(
+    { field, infiniteColour }: LegendState, rows: Row[], stage: { width: number }, ratio: number, across: boolean,
+  ): void {
     const shown = rows.slice(0, most);
     if (rows.length > most) shown.push({ label: `and ${rows.length - most} more`, colour: "transparent" });
     if (field.infinite) shown.push({ label: "unreachable", colour: css(infiniteColour) });
     const cell = 2 * pad + bar + 8 + this.measure(shown.map((row) => row.label)), line = 21;
     const columns = across ? Math.max(1, Math.floor((stage.width - pad) / cell)) : 1;
-    const width = across ? Math.min(stage.width, columns * cell + pad) : Math.max(cell, this.measure([field.name]) + 2 * pad);
+    const width = across ? stage.width : Math.max(cell, this.measure([field.name]) + 2 * pad);
     const context = this.begin(width, Math.ceil(shown.length / columns) * line + line + 2 * pad - 4, ratio);
     const ink = context.fillStyle;
     context.fillText(field.name, pad, pad + 6, width - 2 * pad);
@@ -119,13 +152,21 @@ export class Legend {
     this.canvas.setAttribute("aria-label", `Legend: ${field.name}: ${shown.map((row) => row.label).join("; ")}`);
   }
 
+  /** With their numbers; side by side if a length is given, which then have room. */
+  private ticks({ low, high }: Field, length: number): { ticks: number[]; labels: string[] } {
+    for (let count = length ? Math.max(2, length / 70) : 7; ; count *= 0.8) {
+      const step = niceSpacing(low, high, count), found = niceTicks(low, high, step);
+      const ticks = found.length ? found : [low], apart = (length * step) / (high - low);
+      const labels = ticks.map((tick) => numberText(tick, 0.1 * step));
+      if (!length || count < 2 || this.measure(labels) + 10 < apart) return { ticks, labels };
+    }
+  }
+
   private drawBar(state: LegendState, stage: { width: number; height: number }, ratio: number, across: boolean): void {
-    const { field, range } = state, span = field.high - field.low, colourSpan = state.colourHigh - state.colourLow;
-    const colours = colourMap(state.map), bins = across ? 22 : 34;
+    const { field, range } = state, span = field.high - field.low, bins = across ? 22 : 34;
+    const colour = this.colourOf(state);
     const length = across ? Math.max(80, stage.width - 2 * pad - 2) : Math.min(320, Math.max(110, stage.height * 0.46));
-    let ticks = niceTicks(field.low, field.high, niceSpacing(field.low, field.high, across ? Math.max(2, length / 70) : 7));
-    if (!ticks.length) ticks = [field.low];
-    const labels = ticks.map(numberText);
+    const { ticks, labels } = this.ticks(field, across ? length : 0);
     const infinite = field.infinite ? "unreachable" : "";
     const width = across ? stage.width : 2 * pad + bins + bar + 14 + Math.min(120, Math.max(this.measure([...labels, infinite]), this.measure([field.name]) - bar - bins - 14));
     const context = this.begin(width, across ? 20 + bins + bar + 26 : length + 2 * pad + 20 + (infinite ? 26 : 0), ratio);
@@ -134,14 +175,12 @@ export class Legend {
     const from = across ? pad : pad + 20, side = across ? 18 + bins : pad + bins;
     this.along = { from, length };
     const place = (value: number) => {
-      const part = span > 0 ? (value - field.low) / span : 0.5;
+      const part = (value - field.low) / span;
       return from + length * (across ? part : 1 - part);
     };
     for (let i = 0; i < length; ++i) {
       const value = across ? field.low + (span * (i + 0.5)) / length : field.high - (span * (i + 0.5)) / length;
-      const u = colourSpan > 0 ? (value - state.colourLow) / colourSpan : 0.5;
-      const k = 3 * Math.max(0, Math.min(255, Math.round(255 * u)));
-      context.fillStyle = css(colours.subarray(k, k + 3));
+      context.fillStyle = colour(value);
       if (across) context.fillRect(from + i, side, 1.5, bar);
       else context.fillRect(side, from + i, bar, 1.5);
     }
@@ -162,11 +201,12 @@ export class Legend {
       }
     });
     context.textAlign = "start";
-    if (span > 0) this.drawHandles(context, range.map(place), side);
+    if (!state.fixed) this.drawHandles(context, range.map(place), side);
     if (infinite) this.drawHatch(context, state, ink, across ? width - pad - 105 : side, across ? pad - 6 : from + length + 10);
+    const text = (x: number) => numberText(x, fineOf(field.low, field.high));
     this.canvas.setAttribute("aria-label",
-      `Legend: ${field.name} from ${numberText(field.low)} to ${numberText(field.high)}` +
-      (range[0] > field.low || range[1] < field.high ? `, shown from ${numberText(range[0])} to ${numberText(range[1])}` : "") +
+      `Legend: ${field.name} from ${text(field.low)} to ${text(field.high)}` +
+      (range[0] > field.low || range[1] < field.high ? `, shown from ${text(range[0])} to ${text(range[1])}` : "") +
       (field.infinite ? "; hatched where unreachable" : ""));
   }
 

@@ -1,6 +1,6 @@
 // The materials of a field: colours, lines, filter and cuts, shared by all that is drawn with it.
 import * as THREE from "three";
-import { colourMap, regionColour } from "./colours";
+import { colourMap, middleOf, regionColour } from "./colours";
 import type { Field, Triple } from "./scene";
 import { depthFragment, surfaceFragment, surfaceVertex } from "./shaders";
 
@@ -34,6 +34,7 @@ export class Look {
     regions: { value: 0 },
     colours: { value: dataTexture(new Uint8Array(4 * 256), 256, THREE.RGBAFormat, THREE.UnsignedByteType, THREE.LinearFilter) },
     colourMap: { value: new THREE.Vector2() },
+    middle: { value: 0.5 },
     lineMap: { value: new THREE.Vector2() },
     zeroAt: { value: -1 },
     levels: { value: dataTexture(new Float32Array(1), 1, THREE.RedFormat, THREE.FloatType, THREE.NearestFilter) },
@@ -104,6 +105,7 @@ export class Look {
     u.colours.value.dispose();
     u.colours.value = dataTexture(texels, count, THREE.RGBAFormat, THREE.UnsignedByteType, field.discrete ? THREE.NearestFilter : THREE.LinearFilter);
     const span = high - low;
+    u.middle.value = field.discrete ? 0.5 : middleOf(map, low, high);
     u.colourMap.value.set(span > 0 ? (field.low - low) / span : 0.5, span > 0 ? (field.high - field.low) / span : 0);
   }
 
@@ -136,6 +138,45 @@ export class Look {
   keeps(x: number, y: number, z: number): boolean {
     const { cut, boxLow, boxHigh } = this.uniforms, c = cut.value, l = boxLow.value, h = boxHigh.value;
     return c.x * x + c.y * y + c.z * z <= c.w && x >= l.x && y >= l.y && z >= l.z && x <= h.x && y <= h.y && z <= h.z;
+  }
+
+  /** Is a line at that value drawn, for the range of values? */
+  drawsLine(value: number): boolean {
+    const { field } = this, range = this.uniforms.range.value;
+    if (!field || !(field.high > field.low)) return false;
+    const t = (value - field.low) / (field.high - field.low);
+    return t >= range.x && t <= range.y;
+  }
+
+  /** What is drawn of segments, six numbers each, for all that cuts them. */
+  clip(ends: number[]): number[] {
+    const { cut, boxLow, boxHigh } = this.uniforms, l = boxLow.value, h = boxHigh.value, c = cut.value;
+    // Half-spaces a x + b y + c z <= d.
+    const halves = [
+      [c.x, c.y, c.z, c.w], [-1, 0, 0, -l.x], [0, -1, 0, -l.y], [0, 0, -1, -l.z],
+      [1, 0, 0, h.x], [0, 1, 0, h.y], [0, 0, 1, h.z],
+    ];
+    const over = (half: number[], i: number) =>
+      half[0] * ends[i] + half[1] * ends[i + 1] + half[2] * ends[i + 2] - half[3];
+    const out: number[] = [];
+    for (let i = 0; i < ends.length; i += 6) {
+      let from = 0, to = 1;
+      for (const half of halves) {
+        const a = over(half, i), b = over(half, i + 3);
+        if (a > 0) from = b > 0 ? 2 : Math.max(from, a / (a - b));
+        else if (b > 0) to = Math.min(to, a / (a - b));
+      }
+      if (!(from < to)) continue;
+      for (const t of [from, to])
+        for (let k = 0; k < 3; ++k) out.push(ends[i + k] + t * (ends[i + 3 + k] - ends[i + k]));
+    }
+    return out;
+  }
+
+  /** All that decides which lines are drawn, and where; as text, to see whether it has changed. */
+  get cuts(): string {
+    const { cut, boxLow, boxHigh, range } = this.uniforms;
+    return [cut, boxLow, boxHigh, range].map(({ value }) => value.toArray().join(" ")).join(" ");
   }
 
   dispose(): void {

@@ -4,7 +4,7 @@ import { colourMap } from "./colours";
 import { Controls } from "./controls";
 import { isolineSvg, surfaceObj } from "./drawings";
 import { download, element, fillTable, input, say } from "./elements";
-import { numberText } from "./numbers";
+import { fineOf, numberText } from "./numbers";
 import { Readout } from "./readout";
 import { readScene, SceneError, type SceneData } from "./scene";
 import { ResultView, ViewError } from "./view";
@@ -20,7 +20,10 @@ function describe(scene: SceneData): string {
   const field = scene.fields[0], what: string[] = [];
   if (scene.trace) what.push(`${scene.trace.clouds.reduce((sum, cloud) => sum + cloud.tori.length / 16, 0)} points`);
   what.push(scene.volume ? `volume of ${scene.volume.n.join(" x ")} nodes` : `${scene.surface.triangles.length / 3} triangles`);
-  if (field && (field.values || scene.volume)) what.push(`${field.name} from ${numberText(field.low)} to ${numberText(field.high)}`);
+  if (field && (field.values || scene.volume)) {
+    const [low, high] = [field.low, field.high].map((x) => numberText(x, fineOf(field.low, field.high)));
+    what.push(`${field.name} from ${low} to ${high}`);
+  }
   return `${scene.title || "Surface"}: ${what.join(", ")}`;
 }
 
@@ -61,7 +64,7 @@ function start(scene: SceneData, began: number): void {
   }
   const controls = new Controls(view, address, fit), readout = new Readout(view, stage);
   const first = view.panes[0].volume, volume = first && connectVolume(view, first, address);
-  let firstFrame = 0, cameraTimer = 0, camera = "";
+  let firstFrame = 0, cameraTimer = 0, camera = "", inSight = "";
 
   view.onFrame = () => {
     firstFrame ||= performance.now();
@@ -70,9 +73,13 @@ function start(scene: SceneData, began: number): void {
     const now = view.orbit.toText();
     if (now !== camera) {
       camera = now;
-      controls.afterFrame();
       window.clearTimeout(cameraTimer);
       if (moved) cameraTimer = window.setTimeout(() => address.set("camera", camera), 300);
+    }
+    const lines = [now, fitted, ...view.panes.map((pane) => pane.cuts)].join(" ");
+    if (lines !== inSight) {
+      inSight = lines;
+      controls.afterFrame();
     }
     hint();
   };
@@ -104,12 +111,16 @@ function start(scene: SceneData, began: number): void {
   function savePicture(): void {
     const side = (id: string, otherwise: number) => Math.round(Math.min(8192, Math.max(16, Number(input(id).value) || otherwise)));
     const width = side("save-width", stage.clientWidth * ratio()), height = side("save-height", stage.clientHeight * ratio());
-    const insets = controls.drawLegend(), out = view.picture(width, height, insets), context = out.getContext("2d");
-    const legend = controls.legend.canvas, scale = height / Math.max(1, stage.clientHeight);
-    if (context && !legend.hidden) {
-      const w = legend.offsetWidth * scale, h = legend.offsetHeight * scale, across = legend.classList.contains("across");
-      context.drawImage(legend, across ? 0 : width - w - 12 * scale, across ? height - h : (height - h) / 2, across ? width : w, h);
-    }
+    const insets = controls.drawLegend(), scale = height / Math.max(1, stage.clientHeight);
+    const out = view.picture(width, height, insets, (context) => {
+      controls.drawNumbers(context, width, scale);
+      for (const legend of controls.legends) {
+        const w = legend.offsetWidth * scale, h = legend.offsetHeight * scale, stretch = width / stage.clientWidth;
+        if (legend.classList.contains("across"))
+          context.drawImage(legend, stretch * legend.offsetLeft, height - h, stretch * legend.offsetWidth, h);
+        else context.drawImage(legend, width - w - 12 * scale, (height - h) / 2, w, h);
+      }
+    });
     fit();
     out.toBlob((blob) => {
       if (!blob) return say("The picture is too large for this browser");

@@ -1,11 +1,23 @@
 // Numbers as they are shown: rounding, spacing of lines, ticks (io/render/scene_style.cpp is the same).
 
-/** A number to five significant digits. */
-export function numberText(x: number): string {
+/** A number to five significant digits, or to as many as tell apart what is `fine` apart. */
+export function numberText(x: number, fine = 0): string {
   if (!Number.isFinite(x)) return Number.isNaN(x) ? "none" : x > 0 ? "infinite" : "-infinite";
   if (x === 0) return "0";
-  const size = Math.abs(x);
-  return size >= 1e6 || size < 1e-4 ? x.toExponential(4).replace(/\.?0+e/, "e") : String(Number(x.toPrecision(5)));
+  const size = Math.abs(x), order = (y: number) => Math.floor(Math.log10(y));
+  const digits = Math.min(15, Math.max(5, fine > 0 ? order(size) - order(fine) + 1 : 0));
+  const plain = size >= 1e-4 && (size < 1e6 || (digits > 6 && size < 1e15));
+  return plain ? String(Number(x.toPrecision(digits))) : x.toExponential(digits - 1).replace(/\.?0+e/, "e");
+}
+
+/** What numbers between two others have to tell apart. */
+export const fineOf = (low: number, high: number): number => 1e-4 * (high - low);
+
+/** What the numbers of ascending levels have to tell apart. */
+export function fineOfLevels(levels: number[]): number {
+  let least = Infinity;
+  for (let i = 1; i < levels.length; ++i) least = Math.min(least, levels[i] - levels[i - 1]);
+  return Number.isFinite(least) ? 0.01 * least : 0;
 }
 
 /** The number 1, 2, 2.5 or 5 times a power of ten that cuts high - low into about `count` parts; 0 if there is none. */

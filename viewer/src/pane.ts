@@ -4,7 +4,7 @@ import { cornerReader, differenceField, gradientField, histogram } from "./field
 import { Descent, type Descended } from "./descent";
 import { isolines, type LevelSegments } from "./isolines";
 import { Look } from "./look";
-import { between, niceTicks } from "./numbers";
+import { between, fineOf, niceTicks } from "./numbers";
 import type { Field, SceneData, Shading, Surface, Triple } from "./scene";
 import { disposeMarks, makeLine, makeSources } from "./sources";
 import { SurfaceView } from "./surface";
@@ -107,7 +107,20 @@ export class Pane {
   /** Is what is shown a distance on a surface, as far as one can tell? */
   get hasWays(): boolean {
     const { field } = this;
-    return this.surface !== null && field !== null && field.values !== null && !field.discrete && field.at !== "face" && /^(signed |unsigned )?(dist|geodesic)/i.test(field.name);
+    if (this.surface === null || !field?.values || field.discrete || field.at === "face") return false;
+    return field.high > field.low && /^(signed |unsigned )?(dist|geodesic)/i.test(field.name);
+  }
+
+  /** What the values of the field have to tell apart as text. */
+  get fine(): number {
+    return this.field ? fineOf(this.field.low, this.field.high) : 0;
+  }
+
+  /** All but the camera that decides where lines are in sight, as text. */
+  get cuts(): string {
+    const { volume: v, surface } = this;
+    const slice = v ? [...v.normal, v.offset, v.level, v.shell.visible, v.triangleCount].join(" ") : "";
+    return `${this.look.cuts} ${slice} ${surface?.mesh.geometry.id ?? ""}`;
   }
 
   /** Draws a line along some places; null: none. */
@@ -155,11 +168,25 @@ export class Pane {
     return out;
   }
 
-  /** The isolines that are shown with a spacing, on the surface or the slice. */
+  /** The isolines in sight with a spacing, on the surface or the slice. */
   lines(spacing: number): LevelSegments[] {
+    const all = this.allLines(this.levels(spacing).filter((level) => this.look.drawsLine(level)));
+    return all.map(({ level, ends }) => ({ level, ends: this.look.clip(ends) }));
+  }
+
+  /** The levels of the lines with a spacing, ascending. */
+  levels(spacing: number): number[] {
     const { field } = this;
     if (!field || field.discrete) return [];
-    const levels = field.levels.length ? [...field.levels].sort((a, b) => a - b) : niceTicks(field.low, field.high, spacing);
+    if (field.levels.length) return [...field.levels].sort((a, b) => a - b);
+    // As the shader: none where the field ends, but the line at 0 between two hues.
+    const { low, high, diverging } = field, near = 1e-6 * (high - low);
+    return niceTicks(low, high, spacing).filter((x) => (x > low + near && x < high - near) || (diverging && x === 0));
+  }
+
+  private allLines(levels: number[]): LevelSegments[] {
+    const { field } = this;
+    if (!field) return [];
     const value = (t: number) => (Number.isFinite(t) ? between(field.low, field.high, t) : t);
     if (this.volume) {
       const g = this.volume.slice.geometry, triangles = g.getIndex()?.array ?? [], t = g.getAttribute("t").array;

@@ -1,7 +1,7 @@
 // What is under the cursor, and what a click pins and copies.
 import type { Descended } from "./descent";
 import { element, input, say } from "./elements";
-import { numberText } from "./numbers";
+import { fineOf, numberText } from "./numbers";
 import type { Picked, ResultView } from "./view";
 
 export class Readout {
@@ -37,14 +37,14 @@ export class Readout {
 
   /** In words: value, place, and the node. */
   describe(picked: Picked, way: Descended | null = null): string {
-    const field = this.view.panes[picked.pane].field, lines: string[] = [];
+    const { field, fine, scene } = this.view.panes[picked.pane], lines: string[] = [];
     if (field && picked.value !== null) {
       const label = field.discrete ? field.labels.get(picked.value) : undefined;
-      lines.push(`${field.name} ${label ?? (picked.value === Infinity ? "unreachable" : numberText(picked.value))}`);
+      lines.push(`${field.name} ${label ?? (picked.value === Infinity ? "unreachable" : numberText(picked.value, fine))}`);
     }
-    lines.push(picked.place.map((x) => numberText(x)).join("  "));
+    lines.push(picked.place.map((x) => numberText(x, fineOf(0, scene.radius))).join("  "));
     if (way && way.places.length > 3)
-      lines.push(`way ${numberText(way.length * this.view.panes[picked.pane].scene.radius)}${way.reached ? "" : ", which ends at no source"}`);
+      lines.push(`way ${numberText(way.length * scene.radius)}${way.reached ? "" : ", which ends at no source"}`);
     if (picked.node) lines.push(picked.node);
     return lines.join("\n");
   }

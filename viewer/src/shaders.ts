@@ -61,6 +61,7 @@ uniform bool hasField, showLines, diverging, zeroLine, discrete, flatShading, oc
 uniform sampler2D colours;
 uniform float regions;       // colours of a discrete field, less 1
 uniform vec2 colourMap, lineMap;  // lines where lineMap.x + lineMap.y * t is whole; y = 0: none
+uniform float middle;        // where between its ends the map has its middle
 uniform float zeroAt;        // t of the value 0
 uniform sampler2D levels;    // explicit levels, ascending
 uniform int levelCount;
@@ -69,6 +70,13 @@ uniform float pixel;         // side of a CSS pixel at distance 1
 uniform float pixelRatio;
 uniform vec3 plainColour, infiniteColour;
 ${lightFunction}${openFunction}
+// As in colours.ts.
+float placeInMap(float part) {
+  float u = clamp(part, 0.0, 1.0);
+  if (u < middle) return 0.5 * u / middle;
+  return 0.5 + (middle < 1.0 ? 0.5 * (u - middle) / (1.0 - middle) : 0.0);
+}
+
 float ink(float away, float width) { return clamp(0.5 * width + 0.5 - away, 0.0, 1.0); }
 
 // t per CSS pixel. Where gradients at vertices are known, the slope is interpolated from them: then it is the
@@ -119,7 +127,7 @@ void main() {
     } else if (discrete) {
       colour = texelFetch(colours, ivec2(int(clamp(floor(vT * regions + 0.5), 0.0, regions)), 0), 0).rgb;
     } else {
-      colour = texture(colours, vec2((255.0 * clamp(colourMap.x + colourMap.y * vT, 0.0, 1.0) + 0.5) / 256.0, 0.5)).rgb;
+      colour = texture(colours, vec2((255.0 * placeInMap(colourMap.x + colourMap.y * vT) + 0.5) / 256.0, 0.5)).rgb;
     }
     bool pale = vInfinite <= 1e-4 && (vT < range.x || vT > range.y);
     if (pale) colour = mix(plainColour, vec3(dot(colour, vec3(0.30, 0.59, 0.11))), 0.25);
@@ -127,7 +135,10 @@ void main() {
     if (showLines && !discrete && !pale && vInfinite <= 1e-4 && slope > 1e-6) {  // less is rounding
       if (lineMap.y > 0.0) {
         float x = lineMap.x + lineMap.y * vT, apart = 1.0 / (lineMap.y * slope);
-        strength = 0.6 * ink(abs(x - round(x)) * apart, 1.0) * smoothstep(2.0, 5.0, apart);
+        // Where a field is as small or large as it gets, it may be so all over: no lines about rounding.
+        float level = (round(x) - lineMap.x) / lineMap.y;
+        if (level > 1e-6 && level < 1.0 - 1e-6)
+          strength = 0.6 * ink(abs(x - round(x)) * apart, 1.0) * smoothstep(2.0, 5.0, apart);
       } else if (levelCount > 0) {
         int low = 0, high = levelCount;
         for (int i = 0; i < 14 && low < high; ++i) {

@@ -1,6 +1,7 @@
 // The surface of one cloud or of several, traced through their tori in a fragment shader. While the view or a slider
 // moves, it is traced at as few pixels as the machine can do at once; at rest, strip by strip from below, at all.
 import * as THREE from "three";
+import { placeInMap } from "./colours";
 import type { Look } from "./look";
 import { mostClouds, operations, type SceneData, type Trace, type Triple, type Volume } from "./scene";
 import { makeTrees, width } from "./tori-tree";
@@ -213,8 +214,8 @@ export class Tracer {
 
   /** Takes the colour of a value from the look again. */
   recolour(t: number): void {
-    const map = this.look.uniforms.colourMap.value;
-    this.shown.colourAt.value = Math.min(1, Math.max(0, map.x + map.y * t));
+    const { colourMap, middle } = this.look.uniforms;
+    this.shown.colourAt.value = placeInMap(colourMap.value.x + colourMap.value.y * t, middle.value);
   }
 
   setOccluded(occluded: boolean): void {

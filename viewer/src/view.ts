@@ -205,10 +205,12 @@ export class ResultView {
     };
   }
 
-  /** The bytes of a picture of any size, drawn once. */
-  picture(width: number, height: number, insets: Insets): HTMLCanvasElement {
+  /** A picture of any size, drawn once; `over` draws on it while places are projected to its pixels. */
+  picture(
+    width: number, height: number, insets: Insets, over: (context: CanvasRenderingContext2D) => void,
+  ): HTMLCanvasElement {
     const { renderer } = this, before = { width: this.width, height: this.height, pixelRatio: renderer.getPixelRatio() };
-    const out = document.createElement("canvas");
+    const out = document.createElement("canvas"), context = out.getContext("2d");
     out.width = width;
     out.height = height;
     const scale = height / Math.max(1, before.height);
@@ -219,7 +221,8 @@ export class ResultView {
     this.orbit.setSize(width / this.panes.length, height, { right: insets.right * scale, bottom: insets.bottom * scale });
     for (const pane of this.panes) while (pane.tracer?.mesh.visible && pane.tracer.prepare(this.orbit.camera, this.panes.length));
     this.render();
-    out.getContext("2d")?.drawImage(this.canvas, 0, 0);
+    context?.drawImage(this.canvas, 0, 0);
+    if (context) over(context);
     this.setSize({ ...before, insets });
     return out;
   }

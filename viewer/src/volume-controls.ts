@@ -1,7 +1,7 @@
 // The controls of a volume: slice, level, clipping box, and the handles on the slice.
 import type { Address } from "./address";
 import { element, input, select } from "./elements";
-import { between, numberText } from "./numbers";
+import { between, fineOf, numberText } from "./numbers";
 import type { Triple } from "./scene";
 import type { VolumeView } from "./volume";
 import type { ResultView } from "./view";
@@ -16,7 +16,7 @@ export interface VolumeControls {
 export function connectVolume(view: ResultView, volume: VolumeView, address: Address): VolumeControls {
   const { scene } = view, shown = volume.volume, field = scene.fields[0];
   const axis = select("axis"), slice = input("slice"), level = input("level"), shell = input("shell"), cut = input("cut");
-  const parts: [Triple, Triple] = [[0, 0, 0], [1, 1, 1]];
+  const parts: [Triple, Triple] = [[0, 0, 0], [1, 1, 1]], fine = fineOf(0, scene.radius);
 
   const unitAxis = (a: number) => [0, 1, 2].map((k) => (k === a ? 1 : 0)) as Triple;
   const partOf = () => {
@@ -26,7 +26,7 @@ export function connectVolume(view: ResultView, volume: VolumeView, address: Add
   /** Where the plane is in the file's unit: along its axis, or along its normal. */
   function placeText(): string {
     const at = volume.normal.reduce((sum, c, k) => sum + c * scene.centre[k], 0) + scene.radius * volume.offset;
-    return numberText(Math.abs(at) < 1e-9 * scene.radius ? 0 : at);
+    return numberText(Math.abs(at) < 1e-9 * scene.radius ? 0 : at, fine);
   }
   function showSlice(write: boolean): void {
     const size = volume.normal.map(Math.abs), along = size.findIndex((x) => x > 1 - 1e-9);
@@ -42,7 +42,7 @@ export function connectVolume(view: ResultView, volume: VolumeView, address: Add
     showSlice(true);
   }
   function showLevel(): void {
-    const text = numberText(between(field.low, field.high, volume.level));
+    const text = numberText(between(field.low, field.high, volume.level), view.panes[0].fine);
     element("level-text").textContent = text;
     level.setAttribute("aria-valuetext", text);
   }
@@ -76,9 +76,29 @@ export function connectVolume(view: ResultView, volume: VolumeView, address: Add
     address.set("cut", cut.checked ? null : 0);
   });
 
+  // The clipping box: a slider for each of its sides, at parts of the volume's.
+  const sides: { a: number; end: 0 | 1; slider: HTMLInputElement; text: HTMLOutputElement }[] = [];
+  function useBox(): void {
+    for (const { a, end, slider, text } of sides) {
+      const at = scene.centre[a] + scene.radius * (volume.low[a] + parts[end][a] * (volume.high[a] - volume.low[a]));
+      text.textContent = numberText(Math.abs(at) < 1e-9 * scene.radius ? 0 : at, fine);
+      slider.setAttribute("aria-valuetext", text.textContent);
+    }
+    volume.setBox(parts[0].map((x, k) => Math.min(x, parts[1][k])) as Triple, parts[1]);
+    view.ask();
+  }
+  const wholeBox = () => parts[0].every((x) => x === 0) && parts[1].every((x) => x === 1);
+  const box = address.get("box")?.split(",").map(Number);
+  if (box?.length === 6 && box.every((x) => x >= 0 && x <= 1)) {
+    for (const end of [0, 1]) parts[end] = box.slice(3 * end, 3 * end + 3) as Triple;
+    element<HTMLDetailsElement>("box").open = !wholeBox();
+  }
   for (let a = 0; a < 3; ++a) for (const end of [0, 1] as const) {
     const row = document.createElement("label"), slider = document.createElement("input");
+    const name = document.createElement("span"), text = document.createElement("output");
     row.className = "row";
+    name.textContent = `${axes[a]} ${end ? "to" : "from"}`;
+    slider.setAttribute("aria-label", name.textContent);
     slider.type = "range";
     slider.min = "0";
     slider.max = "100";
@@ -86,12 +106,14 @@ export function connectVolume(view: ResultView, volume: VolumeView, address: Add
     slider.id = `box-${axes[a]}-${end ? "high" : "low"}`;
     slider.addEventListener("input", () => {
       parts[end][a] = Number(slider.value) / 100;
-      volume.setBox(parts[0].map((x, k) => Math.min(x, parts[1][k])) as Triple, parts[1]);
-      view.ask();
+      useBox();
+      address.set("box", wholeBox() ? null : parts.flat().join(","));
     });
-    row.append(`${axes[a]} ${end ? "to" : "from"}`, slider);
+    row.append(name, slider, text);
     element("box").append(row);
+    sides.push({ a, end, slider, text });
   }
+  useBox();
 
   const move = element("slice-move"), tilt = element("slice-tilt"), arm = 0.32;
   /** The middle of the slice, and the tip of its normal. */

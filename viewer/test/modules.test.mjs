@@ -20,6 +20,42 @@ test("spacing and ticks are the library's", () => {
   assert.equal(numbers.numberText(1.5e-7), "1.5e-7");
 });
 
+test("numbers have the digits that tell them apart", () => {
+  const ticks = (low, high, step) => numbers.niceTicks(low, high, step).map((x) => numbers.numberText(x, 0.1 * step));
+  assert.deepEqual(ticks(99999, 100000.5, 0.5), ["99999", "99999.5", "100000", "100000.5"]);
+  assert.deepEqual(ticks(999999, 1000001, 1), ["999999", "1000000", "1000001"]);
+  assert.deepEqual(ticks(1e9, 1e9 + 1000, 500), ["1000000000", "1000000500", "1000001000"]);
+  assert.deepEqual(ticks(0, 1, 0.25), ["0", "0.25", "0.5", "0.75", "1"]);
+  assert.deepEqual(ticks(0, 2e6, 1e6), ["0", "1e+6", "2e+6"]);
+  assert.equal(numbers.numberText(4000001.25, numbers.fineOf(0, 100)), "4000001.25");
+  assert.equal(numbers.numberText(1 / 3, numbers.fineOf(0, 1)), "0.33333");
+  assert.equal(numbers.numberText(4.3368e-19, numbers.fineOf(0, 1)), "4.3368e-19");
+  assert.equal(numbers.numberText(100000.125, numbers.fineOfLevels([100000, 100000.125, 100001])), "100000.125");
+  assert.equal(numbers.fineOfLevels([3]), 0);
+});
+
+test("two hues meet at 0, wherever the ends of the map are", () => {
+  const at = (value, low, high, map = "diverging") => colours.placeInMap((value - low) / (high - low), colours.middleOf(map, low, high));
+  for (const [low, high] of [[-1, 1], [-0.2, 0.6], [-5, 0.01]])
+    assert.deepEqual([low, low / 2, 0, high / 2, high].map((x) => Number(at(x, low, high).toFixed(9))), [0, 0.25, 0.5, 0.75, 1]);
+  assert.deepEqual([-1, 0, 0.2, 0.4, 0.6, 9].map((x) => Number(at(x, 0.2, 0.6).toFixed(9))), [0.5, 0.5, 0.5, 0.75, 1, 1]);
+  assert.deepEqual([-9, -3, -1, 1].map((x) => at(x, -3, -1)), [0, 0, 0.5, 0.5]);
+  assert.equal(at(0.2, -0.2, 0.6, "viridis"), 0.5);
+});
+
+test("fields side by side have one map, with 0 in its middle if one of them has signs", () => {
+  const signed = fields.makeField({ name: "d", values: [-1, 2] }), unsigned = fields.makeField({ name: "d", values: [0, 5] });
+  for (const pair of [[signed, unsigned], [unsigned, signed]]) {
+    const { map, diverging, low, high, colourLow, colourHigh } = fields.commonField(pair);
+    assert.deepEqual([map, diverging, low, high, colourLow, colourHigh], ["diverging", true, -1, 5, -5, 5]);
+  }
+  const asked = fields.commonField([{ ...signed, colourLow: -0.2, colourHigh: 0.6 }, { ...signed, colourLow: -0.2, colourHigh: 0.6 }]);
+  assert.deepEqual([asked.colourLow, asked.colourHigh], [-0.2, 0.6]);
+  const positive = fields.commonField([unsigned, fields.makeField({ name: "d", values: [0, 7] })]);
+  assert.deepEqual([positive.map, positive.colourLow, positive.colourHigh], ["sequential", 0, 7]);
+  assert.equal(fields.commonField([]), null);
+});
+
 test("sequential maps get steadily lighter or darker, regions have colours of their own", () => {
   for (const name of colours.mapNames.filter((n) => n !== "diverging")) {
     const map = colours.colourMap(name), light = Array.from({ length: 256 }, (_, i) => colours.lightness(map.slice(3 * i, 3 * i + 3)));

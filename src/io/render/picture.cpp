@@ -34,6 +34,10 @@ void check_options(const PictureOptions& options) {
 struct ColourBar {
   double left, top, bottom, width, text_size;
   std::vector<double> ticks;
+
+  std::string text(double tick) const {
+    return label_text(tick, ticks.size() > 1 ? 0.1 * (ticks[1] - ticks[0]) : 0);
+  }
 };
 
 ColourBar plan_bar(const PictureOptions& options, const FieldStyle& style, double& room) {
@@ -49,7 +53,7 @@ ColourBar plan_bar(const PictureOptions& options, const FieldStyle& style, doubl
   if (bar.ticks.empty()) bar.ticks.push_back(style.low);
   double widest = 0;
   for (const double tick : bar.ticks) {
-    widest = std::max(widest, number_width(bar.text_size, label_text(tick)));
+    widest = std::max(widest, number_width(bar.text_size, bar.text(tick)));
   }
   room = bar.width + 3 * bar.text_size + widest;
   bar.left = options.width - room + bar.text_size;
@@ -68,7 +72,7 @@ void draw_regions(Image& image, const ColourBar& bar, const FieldStyle& style) {
       draw_line(image, bar.left, y + 0.5, right, y + 0.5, 1, value_colour(style, bar.ticks[i]));
     if (step < 1.1 * bar.text_size && i % 4 != 0) continue;
     draw_number(image, right + 0.8 * bar.text_size, 0.5 * (top + bottom) - 0.5 * bar.text_size,
-                bar.text_size, label_text(bar.ticks[i]), ink);
+                bar.text_size, bar.text(bar.ticks[i]), ink);
   }
 }
 
@@ -95,7 +99,7 @@ void draw_bar(Image& image, const ColourBar& bar, const FieldStyle& style) {
     const double y = height_of(tick);
     draw_line(image, right, y, right + 0.4 * bar.text_size, y, 1, ink);
     draw_number(image, right + 0.8 * bar.text_size, y - 0.5 * bar.text_size, bar.text_size,
-                label_text(tick), ink);
+                bar.text(tick), ink);
   }
 }
 

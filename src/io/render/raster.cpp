@@ -343,7 +343,10 @@ double SurfaceRaster::line_strength(double value, double slope, bool& zero) cons
   double strength = 0;
   if (style_.spacing > 0) {
     const double level = std::round(value / style_.spacing) * style_.spacing;
-    strength = ink(level, 1.0, 0.6) * smooth_step(2, 5, style_.spacing / slope / scale_);
+    // Where a field is as small or large as it gets, it may be so all over: no lines of rounding.
+    const double margin = 1e-6 * (style_.high - style_.low);
+    if (level > style_.low + margin && level < style_.high - margin)
+      strength = ink(level, 1.0, 0.6) * smooth_step(2, 5, style_.spacing / slope / scale_);
   } else if (!levels_.empty()) {
     const auto above = std::lower_bound(levels_.begin(), levels_.end(), value);
     if (above != levels_.end()) strength = ink(*above, 1.0, 0.6);

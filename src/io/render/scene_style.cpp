@@ -229,9 +229,16 @@ std::vector<Rgb> value_colours(const VecX& values, const std::string& name) {
 
 double colour_position(const FieldStyle& style, double value) {
   // Halved, so that the range of huge numbers stays finite.
-  const double range = 0.5 * style.colour_high - 0.5 * style.colour_low;
-  if (!(range > 0)) return 0.5;
-  return std::clamp((0.5 * value - 0.5 * style.colour_low) / range, 0.0, 1.0);
+  const auto part = [value](double low, double high) {
+    return std::clamp((0.5 * value - 0.5 * low) / (0.5 * high - 0.5 * low), 0.0, 1.0);
+  };
+  const double low = style.colour_low, high = style.colour_high;
+  if (!(high > low)) return 0.5;
+  if (!style.diverging) return part(low, high);
+  // The hues meet at 0, however far from it the ends are.
+  const double at = std::clamp(value, low, high), zero = std::clamp(0.0, low, high);
+  if (at == zero) return 0.5;
+  return at < zero ? 0.5 * part(low, zero) : 0.5 + 0.5 * part(zero, high);
 }
 
 double nice_spacing(double low, double high, double count) {
@@ -260,7 +267,14 @@ std::vector<double> nice_ticks(double low, double high, double step) {
   return ticks;
 }
 
-std::string label_text(double value) { return rounded_text(value == 0 ? 0.0 : value, 5); }
+std::string label_text(double value, double fine) {
+  int digits = 5;
+  if (fine > 0 && value != 0 && std::isfinite(value)) {
+    const double more = std::floor(std::log10(std::abs(value))) - std::floor(std::log10(fine)) + 1;
+    digits = static_cast<int>(std::clamp(more, 5.0, 15.0));
+  }
+  return rounded_text(value == 0 ? 0.0 : value, digits);
+}
 
 SourceMarks source_marks(const Scene& scene, double radius) {
   SourceMarks marks;

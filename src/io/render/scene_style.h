@@ -66,7 +66,7 @@ Rgb region_colour(long number);
 /// The colour of a finite value.
 Rgb value_colour(const FieldStyle& style, double value);
 
-/// Position of a finite value in the colour map, 0..1.
+/// Position of a finite value in the colour map, 0..1; of diverging ones 0 is in the middle.
 double colour_position(const FieldStyle& style, double value);
 
 inline constexpr Rgb plain_colour{196, 204, 214}, infinite_colour{150, 150, 150};
@@ -79,8 +79,9 @@ double nice_spacing(double low, double high, double count);
 /// Multiples of `step` inside [low, high], ascending; at most 1000 of them.
 std::vector<double> nice_ticks(double low, double high, double step);
 
-/// A number to five significant digits, for labels; no trailing zeros, plain minus sign.
-std::string label_text(double value);
+/// A number to five significant digits, or to as many as tell apart what is `fine` apart, for
+/// labels; no trailing zeros, plain minus sign.
+std::string label_text(double value, double fine = 0);
 
 /// Pieces that mark sources: strokes (whole curves, or dashes of unsigned ones) and arrow heads
 /// showing the direction of signed ones, in space.

@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { Cancelled, type Lines, type Surface, type SurfacePoint } from "littoral/inline";
 import { gradientField, histogram, makeField } from "../../../viewer/src/field";
 import { Legend } from "../../../viewer/src/legend";
-import { numberText } from "../../../viewer/src/numbers";
+import { fineOf, numberText } from "../../../viewer/src/numbers";
 import { connectControls } from "./controls";
 import { element, fillSelect, toClipboard } from "./dom";
 import { History, isEmpty, nothing, toSources, type Selection } from "./drawing";
@@ -305,7 +305,7 @@ export class App {
     if (!hit || !surface) return;
     const value = this.stage.valueAt(x, y), field = this.stage.skin?.field;
     const lines = [lineOf(nodeOf(hit, surface.kind, this.tools.snap))];
-    if (value !== null && field) lines.unshift(`${field.name} ${numberText(value)}`);
+    if (value !== null && field) lines.unshift(`${field.name} ${numberText(value, fineOf(field.low, field.high))}`);
     readout.textContent = lines.join("\n");
     const box = this.stage.canvas.getBoundingClientRect();
     readout.style.left = `${Math.max(0, Math.min(x - box.left + 14, box.width - readout.offsetWidth - 6))}px`;

@@ -19,12 +19,14 @@ def number(value: Any, name: str) -> float:
     if type(value) is float or type(value) is int:
         return _as_float(value, name)
     array = as_array(value, name)
+    if array.ndim == 0 and array.dtype.kind == "O" and hasattr(value, "__float__"):
+        return _as_float(value, name)  # a fraction, a decimal number
     if array.ndim != 0 or array.dtype.kind not in "fiub":
         raise ArgumentError(f"{name}: expected one number, got {value!r}")
     return _as_float(array.item(), name)
 
 
-def _as_float(value: float, name: str) -> float:
+def _as_float(value: Any, name: str) -> float:
     try:
         return float(value)
     except OverflowError:

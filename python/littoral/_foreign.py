@@ -155,7 +155,8 @@ def as_cloud_or_surface(V: Any, F: Any = None) -> Surface:
     if F is None:
         if isinstance(V, (Surface, tuple)) or _library(V) or hasattr(V, "tets"):
             return as_surface(V)
-        return PointCloud(V)
+        points = as_array(V, "P")
+        return as_surface(V) if points.ndim == 0 else PointCloud(points)
     second = as_array(F, "F")
     if second.dtype.kind in "iu":
         return Mesh(V, second)

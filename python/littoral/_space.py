@@ -345,6 +345,8 @@ def offset(
         side = float(np.ptp(sdf.bounds, axis=0).max())
         reach = max(abs(d) for d in wanted) / side if side > 0 else 0.0
         padding = max(0.25, 1.5 * reach)
+        if padding > 1000:
+            raise InputError(f"distances: {reach:.3g} times the size of the shape, {side:.6g}")
         grid = _core.Grid.around(sdf._handle, nodes, step, None, padding)
         how = settings(threads, part(progress, prepared, 1))
         cores = _core.offset(sdf._handle, grid, wanted, *radii, how)

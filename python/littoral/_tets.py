@@ -22,7 +22,7 @@ from ._arrays import (
     narrowed,
     result_type,
 )
-from ._errors import ArgumentError, InputError
+from ._errors import ArgumentError, InputError, coded
 from ._foreign import as_cloud_or_surface
 from ._methods import option_texts
 from ._report import Report
@@ -299,6 +299,10 @@ class TetDistanceSolver:
         """
         if points is not None and vertices is not None:
             raise ArgumentError("points and vertices: give one of them; here they mean the same")
+        if surface is None and (flip or estimate_normals):
+            word = "flip" if flip else "estimate_normals"
+            message = f"{word}: there is no surface or cloud whose normals that means; leave it out"
+            raise coded(InputError(message), "options-conflict")
         given = self.mesh._vertices(points if vertices is None else vertices, "vertices")
         shape = None if surface is None else as_cloud_or_surface(surface)._handle
         counted: list[float] = []

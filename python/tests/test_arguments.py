@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from decimal import Decimal
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -66,6 +68,10 @@ WRONG: list[tuple[Callable[[], Any], type[Exception], str]] = [
     (lambda: TETS.isosurface([0, 1, 1, 1], "x"), TypeError, "level: "),
     (lambda: IN_TETS.show(slice="x"), TypeError, "slice: "),
     (lambda: littoral.tet_distance(SQUARE, vertices=0), TypeError, "mesh: "),
+    (lambda: littoral.tet_distance(TETS, vertices=0, flip=True), ValueError, "flip: "),
+    (lambda: littoral.tet_distance(TETS, 5), TypeError, "mesh: expected a littoral surface"),
+    (lambda: littoral.SDF(5), TypeError, "mesh: expected a littoral surface"),
+    (lambda: littoral.offset(CUBE, 1e9), ValueError, "distances: 1e+09 times the size"),
     (lambda: littoral.tet_distance(TETS, vertices=0.5), TypeError, "vertices: "),
     (lambda: littoral.distance(TETS, points=0, vertices=0), TypeError, "points and vertices: "),
     (lambda: littoral.repair(CUBE, error="x"), TypeError, "error: "),
@@ -146,7 +152,7 @@ def test_what_takes_two_arguments_can_be_told(capsys: pytest.CaptureFixture[str]
 
 def test_numbers_of_all_libraries_are_numbers() -> None:
     wanted = VOLUME.isosurface(0.125).points
-    for level in (np.float32(0.125), np.array(0.125), np.float64(0.125)):
+    for level in (np.float32(0.125), np.array(0.125), Fraction(1, 8), Decimal("0.125")):
         assert (VOLUME.isosurface(level).points == wanted).all()
     assert VOLUME.isosurface(np.int64(0)).n_faces == VOLUME.isosurface(False).n_faces
     assert littoral.SurfacePoint.vertex(np.int32(3)) == littoral.SurfacePoint.vertex(3)

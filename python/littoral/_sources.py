@@ -134,7 +134,7 @@ def _node(value: Any, name: str) -> SurfacePoint:
     if isinstance(value, SurfacePoint):
         return value
     if isinstance(value, (int, np.integer)) and not isinstance(value, bool):
-        return SurfacePoint.vertex(int(value))
+        return SurfacePoint.vertex(integer(value, name))
     if not _is_node(value):
         raise ArgumentError(
             f"{name}: expected a vertex, a SurfacePoint or (element, [barycentric]), got {value!r}"
@@ -164,13 +164,16 @@ def point_arrays(value: Any, mesh: Any, name: str) -> _core.Points:
         vertices = vertices.reshape(-1)
         if vertices.size == 0:
             vertices = vertices.astype(np.int32)
+        if vertices.dtype.kind not in "iuO":  # spans of time are integers to numpy
+            raise ArgumentError(f"{name}: expected vertices, got {vertices.dtype}")
         check_range(vertices, mesh.n_vertices, name, "vertices")
         b = np.zeros((len(vertices), 3))
         b[:, 0] = 1
         return _core.Points(np.zeros(len(vertices), np.int32), narrowed(vertices, name), b)
     if _is_node(value):
         value = [value]
-    if not isinstance(value, Iterable) or isinstance(value, str):
+    is_one = isinstance(value, str) or getattr(value, "ndim", 1) == 0
+    if is_one or not isinstance(value, Iterable):
         raise ArgumentError(f"{name}: expected vertices or surface points, got {value!r}")
     nodes = [_node(v, f"{name}[{i}]") for i, v in enumerate(value)]
     on = np.array([p.on for p in nodes], np.int32)

@@ -67,7 +67,7 @@ def surface_point(value: Any, name: str) -> SurfacePoint:
     """potpourri3d's (element, barycentric): none for a vertex, t for an edge, two or three numbers
     for a face. A plain integer is a vertex."""
     if isinstance(value, (int, np.integer)) and not isinstance(value, bool):
-        return SurfacePoint.vertex(int(value))
+        return SurfacePoint.vertex(integer(value, name))
     if not isinstance(value, (tuple, list)) or len(value) != 2:
         raise ArgumentError(f"{name}: expected (element, [barycentric]), got {value!r}")
     element = integer(value[0], name)

@@ -27,8 +27,6 @@ with atheris.instrument_imports(["littoral"]) if BY_ATHERIS else contextlib.null
     import littoral
     from littoral.compat import igl
 
-REFUSED = (littoral.Error, TypeError)
-
 
 class Seeded:
     """Choices by a seed; atheris makes them from its bytes."""
@@ -277,7 +275,7 @@ def check(choices: Any) -> str:
     arguments[which] = damaged(arguments[which], choices)
     try:
         answer = call(*arguments)
-    except REFUSED as error:
+    except littoral.Error as error:
         assert len(str(error)) > 8, f"{call.__name__}: {error!r} says nothing"
         return "refused"
     if call not in (surface, volume, voxels):  # which repeat what they are given

@@ -18,6 +18,7 @@ from ._distance import (
     offset_curves,
 )
 from ._errors import (
+    ArgumentError,
     Cancelled,
     Error,
     IndexOutOfRange,
@@ -56,6 +57,7 @@ __version__ = "0.1.0"
 
 __all__ = [
     "SDF",
+    "ArgumentError",
     "BatchFailures",
     "BatchSummary",
     "Cancelled",

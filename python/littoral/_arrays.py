@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from ._errors import IndexOutOfRange, InputError
+from ._errors import ArgumentError, IndexOutOfRange, InputError
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 Ints: TypeAlias = npt.NDArray[np.int32]
@@ -46,6 +46,8 @@ def contiguous(array: Array, dtype: npt.DTypeLike) -> Array:
 
 
 def _described(array: Array) -> str:
+    if array.ndim == 0 and array.dtype.kind not in "fiubc":
+        return repr(array.item())
     return f"{array.dtype} of shape {array.shape}"
 
 
@@ -54,7 +56,7 @@ def _shaped(array: Array, name: str, columns: int | None, kinds: str, what: str)
     shape = "n" if columns is None else f"n x {columns}"
     if array.dtype.kind not in kinds:
         if array.size:
-            raise TypeError(f"{name}: expected {what} ({shape}), got {_described(array)}")
+            raise ArgumentError(f"{name}: expected {what} ({shape}), got {_described(array)}")
         array = array.astype(np.int32)  # of nothing
     if columns is not None and array.size == 0 and array.ndim < 2:
         array = array.reshape(0, columns)
@@ -68,8 +70,8 @@ def _shaped(array: Array, name: str, columns: int | None, kinds: str, what: str)
 def floats(value: Any, name: str, columns: int | None = None, finite: bool = True) -> Floats:
     """Float64 in C order: n x columns, or n without columns.
 
-    Raises TypeError for anything but real numbers, InputError (a ValueError) for a wrong shape, and
-    for the first number that is not finite unless `finite` is off.
+    Raises ArgumentError for anything but real numbers, InputError for a wrong shape, and for the
+    first number that is not finite unless `finite` is off.
     """
     array = as_array(value, name)
     if (  # what needs nothing done to it, quickly
@@ -93,8 +95,8 @@ def floats(value: Any, name: str, columns: int | None = None, finite: bool = Tru
 def ints(value: Any, name: str, columns: int | None = None) -> Ints:
     """Int32 in C order: n x columns, or of shape n without columns.
 
-    Raises TypeError for anything but integers, InputError for a wrong shape and IndexOutOfRange for
-    numbers beyond 32 bits.
+    Raises ArgumentError for anything but integers, InputError for a wrong shape and IndexOutOfRange
+    for numbers beyond 32 bits.
     """
     array = _shaped(as_array(value, name), name, columns, "iu", "integers")
     return narrowed(array, name)

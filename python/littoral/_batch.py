@@ -19,9 +19,11 @@ from pathlib import Path
 from typing import Any
 
 from . import _core
+from ._arguments import path_of
+from ._batch_arguments import extensions_of, how_of, items_of, options_of, words_of
 from ._batch_status import status_folder
 from ._batch_verb import batch_of_verb
-from ._errors import Error, InputError, IoError, SolveError, UnsupportedError
+from ._errors import ArgumentError, Error, InputError, IoError, SolveError, UnsupportedError
 from ._settings import Progress, settings, told
 
 Work = Callable[..., Any]
@@ -81,7 +83,7 @@ def _item(value: Any, name: str | None) -> _Item:
     try:
         label = json.dumps(value, sort_keys=True)
     except TypeError as error:
-        raise TypeError(f"items: expected paths or what JSON can hold: {error}") from None
+        raise ArgumentError(f"items: expected paths or what JSON can hold: {error}") from None
     return _Item(value, label, name or hashlib.sha256(label.encode()).hexdigest()[:16])
 
 
@@ -178,7 +180,7 @@ def _jobs(items: Any) -> str | list[tuple[str, str | None]]:
     if isinstance(items, (str, os.PathLike)):
         return os.fspath(items)
     named = items.items() if isinstance(items, Mapping) else ((None, value) for value in items)
-    return [(os.fspath(value), name) for name, value in named]
+    return [(path_of(value, "items"), name) for name, value in named]
 
 
 _STATUS = {UnsupportedError: "unsupported", InputError: "input", SolveError: "solve"}
@@ -347,28 +349,22 @@ def batch(
     >>> done.done, done.failed
     (1, 0)
     """
-    given = dict(options or {})
-    place = os.fspath(out)
+    given, items, extensions = options_of(options), items_of(items), extensions_of(to)
+    place = path_of(out, "out")
     remote = place if _is_url(place) else ""
     if state is not None and not remote:
         raise InputError(
             f"state: a folder for status.jsonl goes with an out that is a URL, not with {place}"
         )
-    if not isinstance(items, (str, os.PathLike, Mapping)):
-        items = list(items)
-    for name, n in (("processes", processes), ("retries", retries), ("shard", max(shard))):
-        if not 0 <= n < 2**31:
-            raise InputError(f"{name}: expected a number from 0 on, got {n}")
-    for name, limit in (("time_limit", time_limit), ("memory_limit", memory_limit)):
-        if not 0 <= limit < math.inf:
-            raise InputError(f"{name}: expected a positive number, or 0 for none, got {limit}")
+    how = how_of(processes, time_limit, memory_limit, retries, shard, resume, fail_fast)
+    part = how["shard"], how["shards"]
     if isinstance(work, str):
-        extensions = [to] if isinstance(to, str) and to else list(to)
         if not remote and not _is_remote(items):
             words = [
-                f"--shard={shard[0]}/{shard[1]}", "--resume" if resume else "--no-resume",
-                f"--retry={retries}", f"--jobs={processes}", f"--time-limit={time_limit}",
-                f"--memory-limit={int(memory_limit)}", *(["--fail-fast"] if fail_fast else []),
+                f"--shard={part[0]}/{part[1]}", "--resume" if resume else "--no-resume",
+                f"--retry={how['retries']}", f"--jobs={how['processes']}",
+                f"--time-limit={how['time_limit']}", f"--memory-limit={int(how['memory_limit'])}",
+                *(["--fail-fast"] if fail_fast else []),
             ]  # fmt: skip
             made = batch_of_verb(
                 _jobs(items), work, place, extensions, given, words, told(progress)
@@ -378,22 +374,19 @@ def batch(
         work, to = _one_by_program(work, extensions), ""
         marks = [f"--to={each}" for each in extensions]
     else:
+        if not callable(work):
+            raise ArgumentError(f"work: expected a function or the name of a verb, got {work!r}")
         if not isinstance(to, str):
-            raise TypeError("to: a function writes one path; expected one extension")
+            raise ArgumentError("to: a function writes one path; expected one extension")
         marks = [f"--to={to}"]
     listed = _listed(items, place)
     job = _Job(listed, work, to, given, remote)
     identity = f"{getattr(work, '__module__', '')}.{getattr(work, '__qualname__', repr(work))}"
-    words = [identity, *marks, *(f"--{k}={json.dumps(v)}" for k, v in given.items())]
+    words = [identity, *marks, *words_of(given)]
     if remote:
         words.append(f"--out={remote}")
-    how = {
-        "shard": int(shard[0]), "shards": int(shard[1]), "resume": bool(resume),
-        "retries": int(retries), "fail_fast": bool(fail_fast), "processes": int(processes),
-        "time_limit": float(time_limit), "memory_limit": float(memory_limit),
-    }  # fmt: skip
     jobs = [(item.label, item.name, words) for item in listed]
-    with status_folder(place, bool(remote), state, shard) as folder:
+    with status_folder(place, bool(remote), state, part) as folder:
         made = _core.batch(jobs, job.run, job.hash, folder, how, settings(None, progress))
     made["failures"] = tuple(BatchFailures(*each) for each in made["failures"])
     return BatchSummary(**made)

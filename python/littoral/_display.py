@@ -9,6 +9,9 @@ import webbrowser
 from pathlib import Path
 from typing import Any
 
+from ._arguments import path_of, write_to
+from ._errors import ArgumentError
+
 
 def _in_notebook() -> bool:
     try:
@@ -36,18 +39,19 @@ def show(result: Any, path: str | os.PathLike[str] | None = None) -> Any:
     """The self-contained page of a field, regions or a volume, to turn and measure in.
 
     In a notebook it becomes the cell's output; with `path` it is written there, and otherwise it is
-    opened in the browser. Raises TypeError for anything else, UnsupportedError where littoral was
-    built without pages.
+    opened in the browser. Raises ArgumentError for anything else, UnsupportedError where littoral
+    was built without pages, IoError where the page cannot be written. Pages of meshes alone are
+    made by the command `littoral view`.
 
     >>> import littoral
     >>> littoral.show("a text")
     Traceback (most recent call last):
-    TypeError: expected a littoral.Field, TetField, Regions or Volume, got str
+    littoral.ArgumentError: expected a littoral.Field, TetField, Regions or Volume, got str
     """
     write = _writer(result, "_write_page")
     if path is not None:
-        write(os.fspath(path))
-        return Path(path)
+        write_to(path, write)
+        return Path(path_of(path))
     with tempfile.TemporaryDirectory() as folder:
         inside = Path(folder) / "page.html"
         if _in_notebook():
@@ -62,8 +66,9 @@ def show(result: Any, path: str | os.PathLike[str] | None = None) -> Any:
 
 def _writer(result: Any, name: str) -> Any:
     if not hasattr(result, name):
-        kind = type(result).__name__
-        raise TypeError(f"expected a littoral.Field, TetField, Regions or Volume, got {kind}")
+        expected = "expected a littoral.Field, TetField, Regions or Volume, got "
+        hint = "; the command littoral view shows meshes" if hasattr(result, "points") else ""
+        raise ArgumentError(expected + type(result).__name__ + hint)
     return getattr(result, name)
 
 

@@ -9,11 +9,12 @@ from typing import Any, ParamSpec, Protocol, TypeVar, cast, overload
 import numpy as np
 
 from . import _core
-from ._arrays import Array, Floats, floats
-from ._errors import InputError, UnsupportedError
+from ._arguments import name_of_method
+from ._arrays import Array, Floats, as_array, floats
+from ._errors import ArgumentError, InputError, UnsupportedError
 from ._foreign import as_surface
 from ._methods import option_texts
-from ._report import Report
+from ._report import Report, counted
 from ._results import Reported, Shown, method_takes_kind, takes_kind
 from ._settings import Progress, part, settings
 from ._sources import make_sources, point_arrays, sources_from, sources_state
@@ -98,11 +99,11 @@ class Field(Reported, Shown):
         return isolines(self.mesh, self._handle.values, level)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes by extension: .ply .obj .vtp .csv .npy .txt, .html a page, .png a picture.
+        """Writes by extension: .ply .obj .glb .vtp .csv .tsv .npy .npz .txt, .html .png as `show`.
 
         Raises UnsupportedError for other extensions, IoError where it cannot be written.
         """
-        self._handle.write(os.fspath(path))
+        self._save(path)
 
     def _parts(self) -> tuple[Any, ...]:
         return "surface", self.mesh, {"distance": self.values}, {}
@@ -126,7 +127,7 @@ class Field(Reported, Shown):
     def __repr__(self) -> str:
         finite = self.values[np.isfinite(self.values)]
         span = f"{finite.min():.6g} to {finite.max():.6g}" if finite.size else "nowhere finite"
-        doubts = f", {len(self.warnings)} warnings" if self.warnings else ""
+        doubts = f", {counted(len(self.warnings), 'warning')}" if self.warnings else ""
         return (
             f"<littoral.Field: {len(self.values)} vertices, {span}, by {self.report.method}, "
             f"{self.report.status}{doubts}>"
@@ -172,7 +173,10 @@ class DistanceSolver:
         self.mesh = as_surface(mesh)
         self._choice = (method, options)
         self._handle = _core.DistanceSolver(
-            self.mesh._handle, method or "", option_texts(options), settings(threads, progress)
+            self.mesh._handle,
+            name_of_method(method),
+            option_texts(options),
+            settings(threads, progress),
         )
 
     @property
@@ -222,11 +226,11 @@ def _through_tets(
                 "the boundary (boundary=True)"
             )
         if "surface" in keywords:
-            raise TypeError("surface: given twice, by position and by name")
+            raise ArgumentError("surface: given twice, by position and by name")
         keywords["surface"] = curves
     if points is not None:
         if "vertices" in keywords:
-            raise TypeError("points and vertices: give one of them; here they mean the same")
+            raise ArgumentError("points and vertices: give one of them; here they mean the same")
         keywords["vertices"] = points
     field: TetField = tet_distance(mesh, values=values, **keywords)
     return field
@@ -255,8 +259,9 @@ def distance(
     as_: "pyvista", "trimesh" or "meshio" for the surface as that library's object, with
     "distance" at its vertices, instead of a `Field`; InputError for another name.
     Raises what `DistanceSolver` does, InputError without a source, IndexOutOfRange for one that is
-    not there. `littoral.methods()` names each method's paper. On a `TetMesh` it is `tet_distance`:
-    the second argument is a surface, `points` are vertices and the result is a `TetField`.
+    not there, ArgumentError for what is none. `littoral.methods()` names each method's paper. On a
+    `TetMesh` it is `tet_distance`: the second argument is a surface, `points` are vertices and the
+    result is a `TetField`.
 
     >>> import littoral
     >>> field = littoral.distance(littoral.examples.square(4), curves=[2, 7, 12, 17, 22])
@@ -270,7 +275,11 @@ def distance(
     surface = as_surface(mesh)
     sources = make_sources(surface, curves, points, signed, values)
     core = _core.distance(
-        surface._handle, sources, method or "", option_texts(options), settings(threads, progress)
+        surface._handle,
+        sources,
+        name_of_method(method),
+        option_texts(options),
+        settings(threads, progress),
     )
     return Field(core, surface)
 
@@ -312,7 +321,7 @@ def distance_matrix(
         surface._handle,
         point_arrays(sources, surface, "sources"),
         None if targets is None else point_arrays(targets, surface, "targets"),
-        method or "",
+        name_of_method(method),
         option_texts(options),
         settings(threads, progress),
     )
@@ -340,7 +349,7 @@ def isolines(mesh: Any, values: Any, level: float | Iterable[float] = 0.0) -> li
     if len(given) != surface.n_vertices:
         raise InputError(f"values: expected {surface.n_vertices}, one per vertex, got {len(given)}")
     out: list[Floats] = []
-    for each in floats(np.atleast_1d(np.asarray(level)), "level"):
+    for each in floats(np.atleast_1d(as_array(level, "level")), "level"):
         out.extend(_core.isolines(surface._handle, given, float(each)))
     return out
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 
 class Error(Exception):
     """Root of all errors raised by littoral; the page of messages explains each `code`."""
@@ -13,6 +15,10 @@ class InputError(Error, ValueError):
     """Bad input: the message names the file, line or element."""
 
     code: str = "bad-input"
+
+
+class ArgumentError(InputError, TypeError):
+    """An argument of another kind than is taken: the message names it and says what is expected."""
 
 
 class IndexOutOfRange(InputError, IndexError):
@@ -44,3 +50,16 @@ class Cancelled(Error):
     """The call was stopped."""
 
     code: str = "cancelled"
+
+
+for _kind in (Error, InputError, ArgumentError, IndexOutOfRange, UnsupportedError, SolveError):
+    _kind.__module__ = "littoral"  # as tracebacks name them
+IoError.__module__ = Cancelled.__module__ = "littoral"
+
+E = TypeVar("E", bound=Error)
+
+
+def coded(error: E, code: str) -> E:
+    """The error with a code of the page of messages."""
+    error.code = code
+    return error

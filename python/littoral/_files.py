@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from . import _core
+from ._arguments import path_of
 from ._errors import InputError
 from ._foreign import as_surface
 from ._surfaces import Mesh, PointCloud, Polygons, Surface
@@ -33,7 +34,7 @@ def read(path: str | os.PathLike[str]) -> Surface:
     ...     littoral.read(f"{folder}/cube.obj")
     <littoral.Mesh: 8 vertices, 12 faces>
     """
-    name = os.fsdecode(path)
+    name = path_of(path)
     try:
         return _of_kind(_core.read_mesh(name))
     except InputError as error:
@@ -75,7 +76,7 @@ def read_volume(path: str | os.PathLike[str]) -> Volume:
     ...     littoral.read_volume(f"{folder}/values.nrrd")
     <littoral.Volume: 2 x 3 x 4 nodes>
     """
-    return Volume._of(_core.read_volume(os.fspath(path)))
+    return Volume._of(_core.read_volume(path_of(path)))
 
 
 def read_tets(path: str | os.PathLike[str]) -> TetMesh:
@@ -89,7 +90,7 @@ def read_tets(path: str | os.PathLike[str]) -> TetMesh:
     ...     littoral.read_tets(path)
     <littoral.TetMesh: 4 vertices, 1 tets>
     """
-    return TetMesh._of(_core.read_tets(os.fspath(path)))
+    return TetMesh._of(_core.read_tets(path_of(path)))
 
 
 def read_sources(path: str | os.PathLike[str], mesh: Any) -> _core.Sources:
@@ -108,4 +109,4 @@ def read_sources(path: str | os.PathLike[str], mesh: Any) -> _core.Sources:
     >>> littoral.distance(square, curves).values[:2].tolist()
     [0.5, 0.25]
     """
-    return _core.read_sources(os.fspath(path), as_surface(mesh)._handle)
+    return _core.read_sources(path_of(path), as_surface(mesh)._handle)

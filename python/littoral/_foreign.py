@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ._arrays import Array, Floats, as_array
-from ._errors import InputError, UnsupportedError
+from ._errors import ArgumentError, InputError, UnsupportedError
 from ._surfaces import Mesh, PointCloud, Polygons, Surface
 
 Data: TypeAlias = dict[str, Array]
@@ -95,7 +95,12 @@ def _of_meshio(value: Any) -> Surface:
             f"of {', '.join(curved)} has curved faces; triangles, quads and polygons are taken",
         )
     if not faces and others:
-        raise _refused(value, f"of {', '.join(others)} has no triangles, quads or polygons")
+        tets = (
+            '; littoral.TetMesh(mesh.points, mesh.cells_dict["tetra"]) takes its tets'
+            if "tetra" in others
+            else ""
+        )
+        raise _refused(value, f"of {', '.join(others)} has no triangles, quads or polygons{tets}")
     if not faces:
         return PointCloud(points)
     if all(len(face) == 3 for face in faces):
@@ -116,8 +121,8 @@ def as_surface(value: Any) -> Surface:
 
     Taken: littoral's own; `pyvista.PolyData` and grids (their surface); `trimesh.Trimesh`, scenes
     and point clouds; open3d's meshes and clouds; `meshio.Mesh`; pytorch3d's `Meshes` of one mesh;
-    and pairs (V, F), of numpy, torch, jax or lists. Raises TypeError for anything else, InputError
-    for those without faces or points.
+    and pairs (V, F), of numpy, torch, jax or lists. Raises ArgumentError for anything else,
+    InputError for those without faces or points.
 
     >>> import littoral
     >>> littoral.as_surface(([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]))
@@ -135,11 +140,11 @@ def as_surface(value: Any) -> Surface:
             raise InputError(f"mesh: expected a batch of one mesh, got {len(value)}")
         return Mesh(value.verts_packed(), value.faces_packed())
     if hasattr(value, "tets"):
-        raise TypeError(
+        raise ArgumentError(
             f"mesh: a {type(value).__name__} is no surface; littoral.tet_distance and "
             "TetDistanceSolver measure through it, and their results show() and plot() cuts"
         )
-    raise TypeError(
+    raise ArgumentError(
         "mesh: expected a littoral surface, a pair (V, F) or a mesh of pyvista, trimesh, open3d or "
         f"meshio, got {type(value).__module__}.{type(value).__name__}"
     )
@@ -150,7 +155,8 @@ def as_cloud_or_surface(V: Any, F: Any = None) -> Surface:
     if F is None:
         if isinstance(V, (Surface, tuple)) or _library(V) or hasattr(V, "tets"):
             return as_surface(V)
-        return PointCloud(V)
+        points = as_array(V, "P")
+        return as_surface(V) if points.ndim == 0 else PointCloud(points)
     second = as_array(F, "F")
     if second.dtype.kind in "iu":
         return Mesh(V, second)
@@ -289,7 +295,7 @@ _WRITE: dict[str, dict[str, Callable[..., Any]]] = {
 
 def check_kind(kind: str) -> None:
     """Raises InputError for a library that nothing is handed over to."""
-    if kind not in _WRITE:
+    if not isinstance(kind, str) or kind not in _WRITE:
         raise InputError(f"as_: expected one of {', '.join(map(repr, _WRITE))}, got {kind!r}")
 
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from . import _core
+from ._errors import ArgumentError
 
 Options: TypeAlias = list[tuple[str, str]]
 
@@ -41,7 +42,7 @@ def _text(name: str, value: Any) -> str:
         return _text(name, value.item())
     if isinstance(value, (int, float)):
         return repr(value)
-    raise TypeError(f"option {name}: expected a number, a word or a truth value, got {value!r}")
+    raise ArgumentError(f"option {name}: expected a number, a word or a truth value, got {value!r}")
 
 
 def option_texts(options: Mapping[str, Any]) -> Options:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
+from ._arguments import truth
 from ._arrays import Array, Floats, Ints, as_array
 from ._errors import InputError
 from ._foreign import as_surface
@@ -45,7 +46,7 @@ class Operators:
 
 
 def operators(mesh: Any, *, threads: int | None = None) -> Operators:
-    """The operators of a surface (see `Operators`); needs scipy. TypeError for no surface.
+    """The operators of a surface (see `Operators`); needs scipy. ArgumentError for no surface.
 
     >>> import littoral
     >>> ops = littoral.operators(littoral.examples.square(2))
@@ -77,16 +78,23 @@ class Factorization:
     def __init__(self, A: Any, *, laplacian: bool = False, threads: int | None = None) -> None:
         import scipy.sparse
 
+        if not scipy.sparse.issparse(A):
+            A = as_array(A, "A")
+            if A.ndim != 2 or A.dtype.kind not in "biufc":
+                raise InputError(f"A: expected n x n numbers, got {A.dtype} {A.shape}")
         matrix = scipy.sparse.csc_matrix(A)
         matrix.sort_indices()
         self._complex = np.iscomplexobj(matrix)
+        self._laplacian = truth(laplacian, "laplacian")
         if self._complex and laplacian:
             raise InputError("laplacian: a complex matrix has no constants as null space")
+        # A copy, for copies and pickles of this, which factor it again.
+        self._matrix = matrix.astype(np.complex128 if self._complex else np.float64)
         if self._complex:
-            self._handle = _core.Factorization.complex(matrix, settings(threads))
+            self._handle = _core.Factorization.complex(self._matrix, settings(threads))
         else:
             self._handle = _core.Factorization.real(
-                matrix.astype(np.float64), bool(laplacian), settings(threads)
+                self._matrix, self._laplacian, settings(threads)
             )
 
     def solve(self, b: Any, *, threads: int | None = None) -> Array:
@@ -117,7 +125,14 @@ class Factorization:
         """How many numbers other than 0 the factor holds."""
         return self._handle.nonzeros
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _factorization_from, (self._matrix, self._laplacian)
+
     def __repr__(self) -> str:
         return (
             f"<littoral.Factorization: {self._handle.size} unknowns, {self.nonzeros:.0f} nonzeros>"
         )
+
+
+def _factorization_from(A: Any, laplacian: bool) -> Factorization:
+    return Factorization(A, laplacian=laplacian)

@@ -6,6 +6,7 @@ import os
 from typing import Any
 
 from . import _core
+from ._arguments import name_of_method
 from ._arrays import Array, Floats, Ints
 from ._errors import InputError
 from ._foreign import as_surface
@@ -56,11 +57,12 @@ class Regions(Reported, Shown):
         return self._handle.bounding_sources
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes by extension: .ply .obj .vtp the cut surface, .csv .npy .txt, .html .png.
+        """Writes by extension: .ply .obj .glb .vtp the cut surface, .csv .tsv .npy .npz .txt labels
+        of faces, .html .png as `show` and `plot`.
 
         Raises UnsupportedError for other extensions, IoError where it cannot be written.
         """
-        self._handle.write(os.fspath(path))
+        self._save(path)
 
     def _parts(self) -> tuple[Any, ...]:
         return "surface", self.mesh, {}, {"winding": self.region}
@@ -127,6 +129,10 @@ def winding(
         raise InputError("curves: expected one or several, got None")
     sources = make_sources(surface, curves)
     core = _core.winding(
-        surface._handle, sources, method or "", option_texts(options), settings(threads, progress)
+        surface._handle,
+        sources,
+        name_of_method(method),
+        option_texts(options),
+        settings(threads, progress),
     )
     return Regions(core, surface)

@@ -5,13 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from . import _core
+from ._arguments import name_of_method, number, truth
 from ._foreign import as_cloud_or_surface
 from ._methods import option_texts
 from ._report import Report
 from ._results import Reported
 from ._settings import Progress, settings
 from ._surfaces import Mesh, Surface
-from ._volumes import nodes_and_box
+from ._volumes import resolved
 
 
 class Repaired(Reported):
@@ -71,20 +72,21 @@ def repair(
     >>> closed.report.sizes["input: boundary edges"], closed.report.sizes["result: boundary edges"]
     (3.0, 0.0)
     """
+    nodes, step = resolved(resolution, spacing)
     core, report = _core.repair(
         as_cloud_or_surface(V, F)._handle,
-        method or "",
+        name_of_method(method),
         option_texts(options),
-        bool(flip),
-        bool(estimate_normals),
-        nodes_and_box(resolution, None)[0],
-        spacing,
-        float(error),
-        float(thicken),
-        float(smallest_part),
-        bool(cavities),
-        bool(remesh),
-        bool(fit),
+        truth(flip, "flip"),
+        truth(estimate_normals, "estimate_normals"),
+        nodes,
+        step,
+        number(error, "error"),
+        number(thicken, "thicken"),
+        number(smallest_part, "smallest_part"),
+        truth(cavities, "cavities"),
+        truth(remesh, "remesh"),
+        truth(fit, "fit"),
         settings(threads, progress),
     )
     return Repaired(Mesh._of(core), Report(**report))

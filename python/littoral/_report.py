@@ -30,6 +30,11 @@ class ReportWarning(str):
         return type(self), (str(self), self.code)
 
 
+def counted(n: int, noun: str) -> str:
+    """A number and what is counted, as "1 warning" and "2 warnings"."""
+    return f"{n} {noun}{'s' * (n != 1)}"
+
+
 @dataclass
 class Report:
     """Facts gathered while a method ran.
@@ -63,4 +68,5 @@ class Report:
     def __repr__(self) -> str:
         sizes = ", ".join(f"{value:.0f} {name}" for name, value in self.sizes.items())
         text = f"<littoral.Report: {self.method} on {self.domain}, {self.status}; {sizes}"
-        return text + (f"; {len(self.warnings)} warnings>" if self.warnings else ">")
+        doubts = len(self.warnings)
+        return text + (f"; {counted(doubts, 'warning')}>" if doubts else ">")

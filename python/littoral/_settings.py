@@ -11,6 +11,8 @@ from typing import TypeAlias
 import numpy as np
 
 from . import _core
+from ._arguments import listener
+from ._errors import InputError
 
 Progress: TypeAlias = Callable[[float, str], object]
 
@@ -22,36 +24,34 @@ _defaults = {"threads": 0, "memory_limit": 0.0}
 
 def told(callback: Progress | None = None) -> Progress | None:
     """Whom a call tells of its progress."""
-    return callback or _progress.get()
+    return listener(callback) or _progress.get()
 
 
 def part(callback: Progress | None, begin: float, end: float) -> Progress | None:
     """Whom a call tells that is a part of another one's work, from one share of it to another."""
-    listener = told(callback)
-    if listener is None:
+    whole = told(callback)
+    if whole is None:
         return None
-    return lambda share, stage: listener(begin + (end - begin) * share, stage)
+    return lambda share, stage: whole(begin + (end - begin) * share, stage)
 
 
 def settings(threads: int | None = None, callback: Progress | None = None) -> _core.Settings | None:
     """What a call is run with; None where everything is as by default."""
-    listener = told(callback)
+    hearing = told(callback)
     if (
         threads is None
-        and listener is None
+        and hearing is None
         and not (_defaults["threads"] or _defaults["memory_limit"])
     ):
         return None
     used = _defaults["threads"] if threads is None else threads
     if isinstance(used, bool) or not isinstance(used, (int, np.integer)) or not 0 <= used < 2**31:
-        raise ValueError(
-            f"threads: expected a number of threads or 0 for all cores, got {threads!r}"
-        )
-    return _core.Settings(int(used), listener, float(_defaults["memory_limit"]))
+        raise InputError(f"threads: expected a number of threads or 0 for all cores, got {used!r}")
+    return _core.Settings(int(used), hearing, float(_defaults["memory_limit"]))
 
 
 def set_threads(threads: int) -> None:
-    """Threads of every call that does not say otherwise; 0: all cores. ValueError for less.
+    """Threads of every call that does not say otherwise; 0: all cores. InputError for less.
 
     Results do not depend on it.
 
@@ -66,14 +66,15 @@ def set_threads(threads: int) -> None:
 def set_memory_limit(limit: float) -> None:
     """Work foreseen to need more [bytes] raises IoError before it is begun; 0: what there is.
 
-    Raises ValueError for a negative limit.
+    Raises InputError for a negative limit.
 
     >>> import littoral
     >>> littoral.set_memory_limit(4e9)
     >>> littoral.set_memory_limit(0)
     """
-    if not isinstance(limit, (int, float, np.integer, np.floating)) or not limit >= 0:
-        raise ValueError(f"limit: expected bytes or 0, got {limit!r}")
+    is_number = isinstance(limit, (int, float, np.integer, np.floating))
+    if not is_number or isinstance(limit, bool) or not limit >= 0:
+        raise InputError(f"limit: expected bytes or 0, got {limit!r}")
     _defaults["memory_limit"] = float(limit)
 
 
@@ -97,12 +98,12 @@ class Bar:
             sys.stderr.flush()
 
 
-@contextlib.contextmanager
-def progress(callback: Progress | None = None) -> Iterator[None]:
+def progress(callback: Progress | None = None) -> contextlib.AbstractContextManager[None]:
     """Within this context, long calls tell how far they are.
 
-    Without a callback a bar is drawn on the standard error. A callback gets the share of the work
-    that is done, 0 to 1, and what is being done; what it raises stops the call and is raised by it.
+    Without a callback a bar is drawn on the standard error. A callback gets two arguments, the
+    share of the work that is done, 0 to 1, and what is being done, a text; what it raises stops the
+    call and is raised by it. ArgumentError for what cannot be called with two.
 
     >>> import littoral
     >>> seen = []
@@ -111,6 +112,11 @@ def progress(callback: Progress | None = None) -> Iterator[None]:
     >>> seen[-1]
     1.0
     """
+    return _progress_told(listener(callback))
+
+
+@contextlib.contextmanager
+def _progress_told(callback: Progress | None) -> Iterator[None]:
     bar = Bar() if callback is None else None
     token = _progress.set(callback or bar)
     try:

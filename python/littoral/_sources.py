@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copyreg
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -9,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
+from ._arguments import integer, number, truth
 from ._arrays import (
     Floats,
     as_array,
@@ -19,7 +21,8 @@ from ._arrays import (
     narrowed,
     unwrapped,
 )
-from ._errors import InputError
+from ._errors import ArgumentError, InputError, coded
+from ._report import counted
 
 _VERTEX, _EDGE, _FACE = 0, 1, 2
 
@@ -28,7 +31,8 @@ _VERTEX, _EDGE, _FACE = 0, 1, 2
 class SurfacePoint:
     """A point of a surface: a vertex, a point of an edge, or of a face by barycentric coordinates.
 
-    Make one of `vertex`, `edge` or `face`. What takes it raises IndexOutOfRange if it is not there.
+    Make one of `vertex`, `edge` or `face`; ArgumentError for what is no number. What takes it
+    raises IndexOutOfRange if it is not there.
 
     >>> SurfacePoint.vertex(3)
     SurfacePoint.vertex(3)
@@ -41,7 +45,8 @@ class SurfacePoint:
     b: tuple[float, float, float]
 
     def __post_init__(self) -> None:
-        if self.on not in (_VERTEX, _EDGE, _FACE) or len(self.b) != 3:
+        is_triple = isinstance(self.b, tuple) and len(self.b) == 3
+        if self.on not in (_VERTEX, _EDGE, _FACE) or not is_triple:
             raise InputError(
                 f"SurfacePoint: on is {self.on!r}, b is {self.b!r}; make one by vertex, edge, face"
             )
@@ -49,17 +54,19 @@ class SurfacePoint:
     @staticmethod
     def vertex(v: int) -> SurfacePoint:
         """A vertex by number."""
-        return SurfacePoint(_VERTEX, int(v), (1.0, 0.0, 0.0))
+        return SurfacePoint(_VERTEX, integer(v, "v"), (1.0, 0.0, 0.0))
 
     @staticmethod
     def edge(e: int, t: float) -> SurfacePoint:
         """(1 - t) A + t B of the edge from A to B, which is `mesh.edges[e]`."""
-        return SurfacePoint(_EDGE, int(e), (1 - float(t), float(t), 0.0))
+        along = number(t, "t")
+        return SurfacePoint(_EDGE, integer(e, "e"), (1 - along, along, 0.0))
 
     @staticmethod
     def face(f: int, a: float, b: float, c: float) -> SurfacePoint:
         """a A + b B + c C of the triangle A, B, C; a + b + c = 1."""
-        return SurfacePoint(_FACE, int(f), (float(a), float(b), float(c)))
+        at = number(a, "a"), number(b, "b"), number(c, "c")
+        return SurfacePoint(_FACE, integer(f, "f"), at)
 
     def __repr__(self) -> str:
         if self.on == _VERTEX:
@@ -127,9 +134,9 @@ def _node(value: Any, name: str) -> SurfacePoint:
     if isinstance(value, SurfacePoint):
         return value
     if isinstance(value, (int, np.integer)) and not isinstance(value, bool):
-        return SurfacePoint.vertex(int(value))
+        return SurfacePoint.vertex(integer(value, name))
     if not _is_node(value):
-        raise TypeError(
+        raise ArgumentError(
             f"{name}: expected a vertex, a SurfacePoint or (element, [barycentric]), got {value!r}"
         )
     element, b = value
@@ -157,14 +164,17 @@ def point_arrays(value: Any, mesh: Any, name: str) -> _core.Points:
         vertices = vertices.reshape(-1)
         if vertices.size == 0:
             vertices = vertices.astype(np.int32)
+        if vertices.dtype.kind not in "iuO":  # spans of time are integers to numpy
+            raise ArgumentError(f"{name}: expected vertices, got {vertices.dtype}")
         check_range(vertices, mesh.n_vertices, name, "vertices")
         b = np.zeros((len(vertices), 3))
         b[:, 0] = 1
         return _core.Points(np.zeros(len(vertices), np.int32), narrowed(vertices, name), b)
     if _is_node(value):
         value = [value]
-    if not isinstance(value, Iterable) or isinstance(value, str):
-        raise TypeError(f"{name}: expected vertices or surface points, got {value!r}")
+    is_one = isinstance(value, str) or getattr(value, "ndim", 1) == 0
+    if is_one or not isinstance(value, Iterable):
+        raise ArgumentError(f"{name}: expected vertices or surface points, got {value!r}")
     nodes = [_node(v, f"{name}[{i}]") for i, v in enumerate(value)]
     on = np.array([p.on for p in nodes], np.int32)
     counts = {
@@ -213,9 +223,18 @@ def _curves(value: Any) -> list[Any]:
     if value is None or (isinstance(value, (list, tuple)) and not value):
         return []
     value = unwrapped(value, "curves")
+    if isinstance(value, np.ndarray) and value.dtype.kind == "f" and value.ndim not in (2, 3):
+        raise ArgumentError(
+            "curves: expected vertices (integers) or points in space (n x 3), "
+            f"got {value.dtype} of shape {value.shape}"
+        )
+    if not isinstance(value, (Curve, FaceChain, Iterable, int, np.integer)):
+        raise ArgumentError(f"curves: expected one or several, got {value!r}")
     if isinstance(value, (list, tuple)) and _space_points(value) is not None:
         return [np.asarray(value, np.float64)]
-    return [value] if _is_one_curve(value) else list(value)
+    if _is_one_curve(value) or not isinstance(value, Iterable):
+        return [value]
+    return list(value)
 
 
 def make_sources(
@@ -226,18 +245,14 @@ def make_sources(
     `values`: one number for all sources, or one for each curve and then for each point.
     """
     if isinstance(curves, _core.Sources):
+        _check_alone(points=points, signed=signed, values=values)
         return curves
     out = _core.Sources()
     given = _curves(curves)
-    if signed is None or isinstance(signed, (bool, np.bool_)):
-        signs = [signed] * len(given)
-    else:
-        signs = list(signed)
-        if len(signs) != len(given):
-            raise InputError(f"signed: there are {len(signs)} truth values for {len(given)} curves")
+    signs = _signs(signed, len(given))
     on_mesh = None if points is None else point_arrays(points, mesh, "points")
     n_points = 0 if on_mesh is None else len(on_mesh)
-    counted = None if values is None else _values(values, len(given), n_points)
+    counts = None if values is None else _values(values, len(given), n_points)
     for i, (curve, sign) in enumerate(zip(given, signs, strict=True)):
         name = f"curves[{i}]"
         if isinstance(curve, FaceChain):
@@ -246,10 +261,10 @@ def make_sources(
             out.add_chain(faces)
             continue
         is_signed = True if sign is None else bool(sign)
-        value = 0.0 if counted is None else float(counted[i])
+        value = 0.0 if counts is None else float(counts[i])
         if isinstance(curve, Curve):
-            is_signed = curve.signed if sign is None else bool(sign)
-            value = float(curve.value) if counted is None else value
+            is_signed = truth(curve.signed, f"{name}.signed") if sign is None else bool(sign)
+            value = number(curve.value, f"{name}.value") if counts is None else value
             curve = curve.nodes
         in_space = _space_points(curve)
         if in_space is not None:
@@ -260,8 +275,33 @@ def make_sources(
                 raise InputError(f"{name}: a curve needs at least two nodes; points= takes points")
             out.add_curve(nodes, is_signed, value)
     if on_mesh is not None:
-        out.add_points(on_mesh, np.zeros(n_points) if counted is None else counted[len(given) :])
+        out.add_points(on_mesh, np.zeros(n_points) if counts is None else counts[len(given) :])
     return out
+
+
+def _check_alone(**given: Any) -> None:
+    """Raises InputError for the first of the words that curves with their own do not go with."""
+    for name, value in given.items():
+        if value is not None:
+            message = f"{name}: curves of a file or of regions come with their own; leave it out"
+            raise coded(InputError(message), "options-conflict")
+
+
+def _signs(signed: Any, n_curves: int) -> list[Any]:
+    """Of each curve whether it is signed, None where that is not said."""
+    if signed is None or isinstance(signed, (bool, np.bool_)):
+        return [signed] * n_curves
+    if isinstance(signed, str) or not isinstance(signed, Iterable):
+        raise ArgumentError(
+            f"signed: expected True, False or one of these for each curve, got {signed!r}"
+        )
+    signs = list(signed)
+    if len(signs) != n_curves:
+        raise InputError(
+            f"signed: there are {counted(len(signs), 'truth value')} for "
+            f"{counted(n_curves, 'curve')}"
+        )
+    return signs
 
 
 def _values(values: Any, n_curves: int, n_points: int) -> Floats:
@@ -271,9 +311,8 @@ def _values(values: Any, n_curves: int, n_points: int) -> Floats:
         return np.full(n_curves + n_points, out[0])
     if len(out) != n_curves + n_points:
         raise InputError(
-            f"values: expected one number or one for each of {n_curves} "
-            f"curve{'s' * (n_curves != 1)} and {n_points} point{'s' * (n_points != 1)}, "
-            f"got {len(out)}"
+            f"values: expected one number or one for each of {counted(n_curves, 'curve')} and "
+            f"{counted(n_points, 'point')}, got {len(out)}"
         )
     return out
 
@@ -303,3 +342,10 @@ def sources_from(state: tuple[Any, ...]) -> _core.Sources:
     for faces in chains:
         out.add_chain(np.asarray(faces, np.int32))
     return out
+
+
+def _reduced(sources: _core.Sources) -> tuple[Any, ...]:
+    return sources_from, (sources_state(sources),)
+
+
+copyreg.pickle(_core.Sources, _reduced)

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from . import _core
+from ._arguments import name_of_method, number, truth
 from ._arrays import Array, Floats, Ints, as_array, floats, like, result_type
+from ._errors import ArgumentError, InputError, coded
 from ._foreign import as_cloud_or_surface
 from ._methods import option_texts
 from ._report import Report
 from ._results import Reported, method_takes_kind, takes_kind
 from ._settings import Progress, part, settings
 from ._surfaces import Mesh, PointCloud, Surface
-from ._volumes import Volume, nodes_and_box
+from ._volumes import Bounds, Volume, box_of, resolved
 
 
 class Closest(NamedTuple):
@@ -45,7 +47,7 @@ class SDF(Reported):
     [length], one number, or one for each face or point; points without normals are then balls of
     radius -value, united. flip reverses all normals; estimate_normals makes those of a cloud,
     without which and without values there is an InputError. Callable at points, from several
-    threads. Points that are not n x 3 or 3 finite real numbers raise TypeError or InputError;
+    threads. Points that are not n x 3 or 3 finite real numbers raise InputError;
     values that the method cannot tell apart raise UnsupportedError.
 
     >>> import littoral
@@ -76,11 +78,11 @@ class SDF(Reported):
         self._made = (method, flip, estimate_normals, {**options, "values": values})
         self._handle = _core.Sdf.of(
             self.input._handle,
-            method or "",
+            name_of_method(method),
             option_texts(options),
             counted,
-            bool(flip),
-            bool(estimate_normals),
+            truth(flip, "flip"),
+            truth(estimate_normals, "estimate_normals"),
             settings(threads, progress),
         )
 
@@ -133,7 +135,7 @@ class SDF(Reported):
         resolution: int | None = None,
         *,
         spacing: float | None = None,
-        bounds: Sequence[float] | None = None,
+        bounds: Bounds | None = None,
         padding: float = 0.25,
         grid: Volume | None = None,
         threads: int | None = None,
@@ -142,14 +144,23 @@ class SDF(Reported):
         """Distance at the nodes of a grid around the input.
 
         resolution: nodes along the longest side (64), or spacing [length]. bounds: x0 y0 z0 x1 y1
-        z1; without, a margin of `padding` longest sides. grid: a volume whose nodes to use instead.
-        Raises InputError for a box without extent, IoError where there is no memory for the nodes.
+        z1, or corners 2 x 3, as `bounds` has them; without, a margin of `padding` longest sides.
+        grid: a volume whose nodes to use instead. Raises InputError for a box without extent and
+        for a grid beside these, IoError where there is no memory for the nodes.
         as_: "pyvista" for a `pyvista.ImageData` with "distance".
+
+        >>> import littoral
+        >>> sdf = littoral.SDF(littoral.examples.cube())
+        >>> sdf.sample(5, bounds=sdf.bounds).spacing.tolist()
+        [0.25, 0.25, 0.25]
         """
-        nodes = None if grid is None else _volume(grid, "grid")._handle.grid
-        if nodes is None:
-            longest, box = nodes_and_box(resolution, bounds)
-            nodes = _core.Grid.around(self._handle, longest, spacing, box, padding)
+        if grid is None:
+            longest, step = resolved(resolution, spacing)
+            margin = number(padding, "padding")
+            nodes = _core.Grid.around(self._handle, longest, step, box_of(bounds), margin)
+        else:
+            _nothing_beside("a grid", resolution=resolution, spacing=spacing, bounds=bounds)
+            nodes = _volume(grid, "grid")._handle.grid
         return Volume._of(self._handle.sample(nodes, settings(threads, progress)))
 
     @property
@@ -194,14 +205,16 @@ _COMBINE = {"unite": _core.unite, "intersect": _core.intersect, "subtract": _cor
 
 def _combined_from(how: str, a: SDF, b: SDF, blend: float) -> SDF:
     if not (isinstance(a, SDF) and isinstance(b, SDF)):
-        raise TypeError(f"{how}: expected two SDFs, got {type(a).__name__}, {type(b).__name__}")
-    return SDF._of(_COMBINE[how](a._handle, b._handle, float(blend)), (how, a, b, blend))
+        raise ArgumentError(f"{how}: expected two SDFs, got {type(a).__name__}, {type(b).__name__}")
+    rounding = number(blend, "blend")
+    return SDF._of(_COMBINE[how](a._handle, b._handle, rounding), (how, a, b, rounding))
 
 
 def unite(a: SDF, b: SDF, blend: float = 0.0) -> SDF:
     """What is in either shape; corners where they meet are rounded `blend` from them [length].
 
-    Signs and zero set are right; the magnitude is a bound. Also `a | b`. TypeError if not of SDFs.
+    Signs and zero set are right; the magnitude is a bound. Also `a | b`. Raises ArgumentError for
+    what is no SDF.
 
     >>> from littoral.examples import cube, sphere
     >>> unite(SDF(cube()), SDF(sphere()))([[-2, 0, 0], [2, .5, .5]]).tolist()
@@ -233,7 +246,7 @@ def subtract(a: SDF, b: SDF, blend: float = 0.0) -> SDF:
 def sdf_of_volume(volume: Volume) -> SDF:
     """A volume of signed distance as an SDF, linear between its nodes; outside its box a bound.
 
-    Raises TypeError for anything but a `Volume`.
+    Raises ArgumentError for anything but a `Volume`.
 
     >>> float(sdf_of_volume(Volume([[[0, 0], [0, 0]], [[1, 1], [1, 1]]]))([.25, .5, .5]))
     0.25
@@ -243,15 +256,31 @@ def sdf_of_volume(volume: Volume) -> SDF:
 
 def _volume(value: Any, name: str) -> Volume:
     if not isinstance(value, Volume):
-        raise TypeError(f"{name}: expected a littoral.Volume, got {type(value).__name__}")
+        raise ArgumentError(f"{name}: expected a littoral.Volume, got {type(value).__name__}")
     return value
+
+
+def _nothing_beside(what: str, **given: Any) -> None:
+    """Raises InputError for the first word about nodes that is given with what has its own."""
+    for name, value in given.items():
+        if value is not None:
+            message = f"{name}: {what} has its own nodes; leave out one of the two"
+            raise coded(InputError(message), "options-conflict")
 
 
 @takes_kind
 def signed_heat_grid(
-    V: Any, F: Any = None, resolution: int | None = None, *, spacing: float | None = None,
-    bounds: Sequence[float] | None = None, padding: float = 0.25, **options: Any
-) -> Volume:  # fmt: skip
+    V: Any,
+    F: Any = None,
+    resolution: int | None = None,
+    *,
+    spacing: float | None = None,
+    bounds: Bounds | None = None,
+    padding: float = 0.25,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    **options: Any,
+) -> Volume:
     """Signed distance on a grid by the signed heat method [length].
 
     V, F, options as for `SDF`, the rest as for `SDF.sample`, `as_` too; raises as they.
@@ -261,8 +290,17 @@ def signed_heat_grid(
     >>> littoral.signed_heat_grid(littoral.examples.cube(), resolution=9).shape
     (9, 9, 9)
     """
-    sdf = SDF(V, F, method="signed-heat", **options)
-    return sdf.sample(resolution, spacing=spacing, bounds=bounds, padding=padding)
+    prepared = 0.1  # share of the work
+    told = part(progress, 0, prepared)
+    sdf = SDF(V, F, method="signed-heat", threads=threads, progress=told, **options)
+    return sdf.sample(
+        resolution,
+        spacing=spacing,
+        bounds=bounds,
+        padding=padding,
+        threads=threads,
+        progress=part(progress, prepared, 1),
+    )
 
 
 @takes_kind
@@ -277,21 +315,26 @@ def offset(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> list[Surface]:
-    """The surfaces at signed distances from a shape, one each [length]; InputError without one.
+    """The surfaces at signed distances from a shape, one each [length].
 
     shape: a volume of distance, an SDF, or what `SDF` takes; the latter are sampled (resolution,
     spacing), and where they can be asked anywhere, vertices lie exactly at the distances, however
-    coarse the grid. open: erode by this, then dilate, so thin parts go; close: the reverse, so gaps
-    fill.
+    coarse the grid. A volume has its own nodes. open: erode by this, then dilate, so thin parts go;
+    close: the reverse, so gaps fill. Raises InputError for no distances, for a distance at which
+    there is nothing, and for resolution or spacing beside a volume.
     as_: "pyvista", "trimesh" or "meshio" for a list of that library's objects.
 
     >>> from littoral.examples import cube
     >>> round(float(offset(cube(), .1, resolution=24)[0].points.max()), 1)
     1.1
     """
-    wanted = list(floats(np.atleast_1d(np.asarray(distances)), "distances"))
-    radii = float(open), float(close)
+    wanted = list(floats(np.atleast_1d(as_array(distances, "distances")), "distances"))
+    if not wanted:
+        raise coded(InputError("distances: expected at least one, got none"), "nothing-given")
+    radii = number(open, "open"), number(close, "close")
+    nodes, step = resolved(resolution, spacing)
     if isinstance(shape, Volume):
+        _nothing_beside("a volume", resolution=resolution, spacing=spacing)
         cores = _core.offset(shape._handle, wanted, *radii, settings(threads, progress))
     else:
         prepared = 0.0 if isinstance(shape, SDF) else 0.2  # share of the work
@@ -300,10 +343,11 @@ def offset(
         else:
             sdf = SDF(shape, threads=threads, progress=part(progress, 0, prepared))
         side = float(np.ptp(sdf.bounds, axis=0).max())
-        reach = max([abs(d) for d in wanted] + [0.0]) / side if side > 0 else 0.0
+        reach = max(abs(d) for d in wanted) / side if side > 0 else 0.0
         padding = max(0.25, 1.5 * reach)
-        nodes, _ = nodes_and_box(resolution, None)
-        grid = _core.Grid.around(sdf._handle, nodes, spacing, None, padding)
+        if padding > 1000:
+            raise InputError(f"distances: {reach:.3g} times the size of the shape, {side:.6g}")
+        grid = _core.Grid.around(sdf._handle, nodes, step, None, padding)
         how = settings(threads, part(progress, prepared, 1))
         cores = _core.offset(sdf._handle, grid, wanted, *radii, how)
     return [Mesh._of(core) for core in cores]
@@ -345,8 +389,8 @@ def fit_tori(
     soup = _core.fit_tori(
         cloud._handle,
         option_texts(options),
-        bool(flip),
-        bool(estimate_normals),
+        truth(flip, "flip"),
+        truth(estimate_normals, "estimate_normals"),
         settings(threads, progress),
     )
     return PointCloud._of(_core.Mesh.from_soup(soup))

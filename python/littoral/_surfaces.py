@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from . import _core
+from ._arguments import number, write_to
 from ._arrays import (
     Array,
     Floats,
@@ -22,7 +23,7 @@ from ._arrays import (
     narrowed,
     result_type,
 )
-from ._errors import InputError, UnsupportedError
+from ._errors import ArgumentError, InputError, UnsupportedError
 from ._sources import point_arrays
 
 S = TypeVar("S", bound="Surface")
@@ -45,7 +46,7 @@ class Surface:
     _dtype: Any = np.float64
 
     def __init__(self) -> None:
-        raise TypeError("make a Mesh, Polygons, PointCloud or Voxels")
+        raise ArgumentError("make a Mesh, Polygons, PointCloud or Voxels")
 
     @classmethod
     def _of(cls: type[S], core: _core.Mesh, dtype: Any = np.float64) -> S:
@@ -151,14 +152,14 @@ class Surface:
         """
         if self.kind == "voxel surface":
             raise UnsupportedError("welded: voxels share their vertices; there is nothing to weld")
-        return type(self)._of(self._handle.welded(float(distance)), self._dtype)
+        return type(self)._of(self._handle.welded(number(distance, "distance")), self._dtype)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the surface by extension: .obj .ply .off .stl.
+        """Writes the surface by extension: .obj .ply .off .stl .glb .3mf .vtp.
 
         Raises UnsupportedError for other extensions, IoError where it cannot be written.
         """
-        self._handle.write(os.fspath(path))
+        write_to(path, self._handle.write)
 
     def _parts(self) -> tuple[Any, ...]:
         return "surface", self, {}, {}
@@ -184,8 +185,8 @@ class Mesh(Surface):
     """A mesh of triangles or polygons.
 
     V: vertices x 3, real numbers [length]. F: faces x corners, integers, by vertex from 0; faces of
-    fewer corners than columns end in -1. Raises TypeError, InputError (a ValueError) and
-    IndexOutOfRange (an IndexError) naming the first entry that is wrong.
+    fewer corners than columns end in -1. Raises ArgumentError (a TypeError), InputError (a
+    ValueError) and IndexOutOfRange (an IndexError) naming the first entry that is wrong.
 
     >>> Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     <littoral.Mesh: 3 vertices, 1 faces>
@@ -195,7 +196,7 @@ class Mesh(Surface):
         points = floats(V, "V", 3, finite=False)
         faces = as_array(F, "F")
         if faces.dtype.kind not in "iu" and faces.size:
-            raise TypeError(f"F: expected integers (faces x corners), got {faces.dtype}")
+            raise ArgumentError(f"F: expected integers (faces x corners), got {faces.dtype}")
         if faces.size == 0:
             raise InputError("F: there are no faces; PointCloud takes points alone")
         if faces.ndim != 2 or faces.shape[1] < 3:
@@ -232,6 +233,8 @@ class Polygons(Surface):
 
     def __init__(self, V: Any, faces: Sequence[Any]) -> None:
         points = floats(V, "V", 3, finite=False)
+        if not hasattr(faces, "__len__"):
+            raise ArgumentError(f"faces: expected a list of faces, got {faces!r}")
         if len(faces) == 0:
             raise InputError("faces: there are none; PointCloud takes points alone")
         rows = [ints(face, f"faces[{f}]") for f, face in enumerate(faces)]
@@ -243,8 +246,8 @@ class Polygons(Surface):
 class PointCloud(Surface):
     """A point cloud: P points x 3 [length], and N normals x 3 or none (need not be of unit length).
 
-    On surfaces, normals are estimated where they are needed and not given. Raises TypeError, and
-    InputError for other shapes and points that are not finite.
+    On surfaces, normals are estimated where they are needed and not given. Raises ArgumentError for
+    what is no numbers, InputError for other shapes and points that are not finite.
 
     >>> PointCloud([[0, 0, 0], [1, 0, 0], [0, 1, 0]])
     <littoral.PointCloud: 3 points>

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from . import _core, _display
+from ._arguments import name_of_method, number, number_or_none, truth
 from ._arrays import (
     Array,
     Floats,
@@ -21,20 +22,20 @@ from ._arrays import (
     narrowed,
     result_type,
 )
-from ._errors import InputError
+from ._errors import ArgumentError, InputError, coded
 from ._foreign import as_cloud_or_surface
 from ._methods import option_texts
 from ._report import Report
 from ._results import Reported, Shown, method_takes_kind, takes_kind
 from ._settings import Progress, part, settings
 from ._surfaces import Mesh, Surface
-from ._volumes import nodes_and_box
+from ._volumes import Bounds, box_of, resolved
 
 
 class TetMesh:
     """Tetrahedra: V vertices x 3 [length], T tets x 4 by vertex.
 
-    Either orientation will do. Raises TypeError, InputError and IndexOutOfRange as `Mesh`.
+    Either orientation will do. Raises ArgumentError, InputError and IndexOutOfRange as `Mesh`.
 
     >>> TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
     <littoral.TetMesh: 4 vertices, 1 tets>
@@ -56,7 +57,7 @@ class TetMesh:
         *,
         resolution: int | None = None,
         spacing: float | None = None,
-        bounds: Sequence[float] | None = None,
+        bounds: Bounds | None = None,
         padding: float = 0.25,
         threads: int | None = None,
         progress: Progress | None = None,
@@ -64,9 +65,10 @@ class TetMesh:
         """Tets that fill a cube about a surface or cloud, small near it and larger far from it.
 
         resolution: cells along the cube's side if all were as small as near the surface, to a power
-        of two (64), or spacing, their side [length]. bounds: x0 y0 z0 x1 y1 z1, whose longest side
-        is the cube's; without, a margin of `padding` longest sides. Thesis 4.5. Raises InputError
-        for a box without extent and for more than 2^26 tets, IoError where memory will not do.
+        of two (64), or spacing, their side [length]. bounds: x0 y0 z0 x1 y1 z1, or corners 2 x 3,
+        of a box whose longest side is the cube's; without, a margin of `padding` longest sides.
+        Thesis 4.5. Raises InputError for a box without extent and for more than 2^26 tets, IoError
+        where memory will not do.
 
         >>> import littoral
         >>> cube = littoral.examples.cube()
@@ -75,11 +77,11 @@ class TetMesh:
         >>> phi.isosurface(-0.25).points.min(axis=0).round(3).tolist()
         [0.25, 0.25, 0.25]
         """
-        nodes, box = nodes_and_box(resolution, bounds)
+        nodes, step = resolved(resolution, spacing)
+        margin = number(padding, "padding")
         handle = as_cloud_or_surface(surface)._handle
-        return cls._of(
-            _core.tets_around(handle, nodes, spacing, box, padding, settings(threads, progress))
-        )
+        how = settings(threads, progress)
+        return cls._of(_core.tets_around(handle, nodes, step, box_of(bounds), margin, how))
 
     @classmethod
     def _of(cls, core: _core.TetMesh) -> TetMesh:
@@ -122,7 +124,8 @@ class TetMesh:
         <littoral.Mesh: 3 vertices, 1 faces>
         """
         numbers = floats(np.ravel(as_array(values, "values")), "values", finite=False)
-        return Mesh._of(self._handle.isosurface(numbers, float(level), settings(threads)))
+        at = number(level, "level")
+        return Mesh._of(self._handle.isosurface(numbers, at, settings(threads)))
 
     def _vertices(self, chosen: Any, name: str) -> Ints:
         """Vertices by number, checked; none for None."""
@@ -131,9 +134,9 @@ class TetMesh:
         try:
             array = np.atleast_1d(as_array(chosen, name))
         except InputError:
-            raise TypeError(f"{name}: expected vertices of the tets, got {chosen!r}") from None
+            raise ArgumentError(f"{name}: expected vertices of the tets, got {chosen!r}") from None
         if array.dtype.kind not in "iu" and array.size:
-            raise TypeError(
+            raise ArgumentError(
                 f"{name}: expected vertices of the tets, as integers, got {array.dtype}"
             )
         check_range(array, self.n_vertices, name, "vertices")
@@ -157,6 +160,8 @@ class TetField(Reported, Shown):
     <littoral.TetField: 4 vertices, by auto, converged>
     """
 
+    _also_written = ".obj .ply .glb .vtp .csv .tsv .npy .npz .txt .html .png"
+
     def __init__(self, core: _core.TetField, mesh: TetMesh) -> None:
         self._handle = core
         self.mesh = mesh
@@ -169,9 +174,10 @@ class TetField(Reported, Shown):
         return self.mesh.isosurface(self.values, level, threads=threads)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes by extension: .vtk .vtu the tets, .ply .obj .vtp their boundary, .csv .npy .txt
-        values, .html .png as `show` and `plot`; UnsupportedError for others, IoError."""
-        self._handle.write(os.fspath(path))
+        """Writes by extension: .vtk .vtu the tets, .ply .obj .glb .vtp their boundary, .csv .tsv
+        .npy .npz .txt values, .html .png as `show`; UnsupportedError for others, IoError.
+        """
+        self._save(path)
 
     def show(
         self,
@@ -221,7 +227,7 @@ class _Cut(Shown):
         if axis not in ("x", "y", "z"):
             raise InputError(f"axis: expected 'x', 'y' or 'z', got {axis!r}")
         self._handle = field._handle
-        self._at = "xyz".index(axis), None if slice is None else float(slice)
+        self._at = "xyz".index(axis), number_or_none(slice, "slice")
 
     def _write_page(self, path: str) -> None:
         self._handle.write_page(path, *self._at)
@@ -238,7 +244,7 @@ class TetDistanceSolver:
     """A method prepared for one tet mesh; may be used from several threads.
 
     method: a name of `littoral.methods()["Distance through tets"]`; without one "auto": signed from
-    surfaces, unsigned from vertices, exact where the source is in sight. Raises TypeError for
+    surfaces, unsigned from vertices, exact where the source is in sight. Raises ArgumentError for
     another mesh, InputError for an unknown method or option.
 
     >>> import littoral
@@ -258,11 +264,14 @@ class TetDistanceSolver:
         **options: Any,
     ) -> None:
         if not isinstance(mesh, TetMesh):
-            raise TypeError(f"mesh: expected a littoral.TetMesh, got {type(mesh).__name__}")
+            raise ArgumentError(f"mesh: expected a littoral.TetMesh, got {type(mesh).__name__}")
         self.mesh = mesh
         self._choice = (method, options)
         self._handle = _core.TetDistanceSolver(
-            mesh._handle, method or "", option_texts(options), settings(threads, progress)
+            mesh._handle,
+            name_of_method(method),
+            option_texts(options),
+            settings(threads, progress),
         )
 
     @method_takes_kind
@@ -289,7 +298,11 @@ class TetDistanceSolver:
         IndexOutOfRange.
         """
         if points is not None and vertices is not None:
-            raise TypeError("points and vertices: give one of them; here they mean the same")
+            raise ArgumentError("points and vertices: give one of them; here they mean the same")
+        if surface is None and (flip or estimate_normals):
+            word = "flip" if flip else "estimate_normals"
+            message = f"{word}: there is no surface or cloud whose normals that means; leave it out"
+            raise coded(InputError(message), "options-conflict")
         given = self.mesh._vertices(points if vertices is None else vertices, "vertices")
         shape = None if surface is None else as_cloud_or_surface(surface)._handle
         counted: list[float] = []
@@ -298,9 +311,9 @@ class TetDistanceSolver:
         sources = _core.TetSources(
             shape,
             given.tolist(),
-            bool(boundary),
-            bool(flip),
-            bool(estimate_normals),
+            truth(boundary, "boundary"),
+            truth(flip, "flip"),
+            truth(estimate_normals, "estimate_normals"),
             counted,
         )
         return TetField(self._handle.solve(sources, settings(threads, progress)), self.mesh)

@@ -4,35 +4,42 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _core
+from ._arguments import number, number_or_none, truth, whole
 from ._arrays import Floats, as_array, contiguous, floats
 from ._errors import InputError
 from ._results import Shown, method_takes_kind
 from ._settings import settings
 from ._surfaces import Mesh, Surface, spacings, triple
 
+# x0 y0 z0 x1 y1 z1, or the two corners, 2 x 3, as `SDF.bounds` is.
+Bounds: TypeAlias = Sequence[float] | Sequence[Sequence[float]] | npt.NDArray[Any]
 
-def nodes_and_box(
-    resolution: int | None, bounds: Sequence[float] | None
-) -> tuple[int | None, list[float] | None]:
-    """The words for a grid, checked: nodes along the longest side, x0 y0 z0 x1 y1 z1."""
+
+def resolved(resolution: Any, spacing: Any) -> tuple[int | None, float | None]:
+    """How fine a grid is, checked: nodes along the longest side, or the length between nodes."""
     nodes = None if resolution is None else whole(resolution, "resolution", " of nodes")
-    box: list[float] | None = None if bounds is None else floats(bounds, "bounds").ravel().tolist()
-    if box is not None and len(box) != 6:
-        raise InputError(f"bounds: expected x0 y0 z0 x1 y1 z1, got {len(box)} numbers")
-    return nodes, box
+    return nodes, number_or_none(spacing, "spacing")
 
 
-def whole(value: Any, name: str, what: str, least: int = -(2**31), most: int = 2**31 - 1) -> int:
-    """A whole number, also as a float, that the library has room for; InputError for others."""
-    known = np.ndim(value) == 0 and np.asarray(value).dtype.kind in "biuf"
-    if not known or not least <= value <= most or int(value) != value:
-        raise InputError(f"{name}: expected a whole number{what}, got {value}")
-    return int(value)
+def box_of(bounds: Any) -> list[float] | None:
+    """A box as x0 y0 z0 x1 y1 z1; InputError for other numbers of numbers."""
+    if bounds is None:
+        return None
+    given = as_array(bounds, "bounds")
+    if given.shape == (2, 3):
+        given = given.ravel()
+    if given.shape != (6,) and given.dtype.kind in "fiub":
+        raise InputError(
+            f"bounds: expected x0 y0 z0 x1 y1 z1, or corners 2 x 3, got shape {given.shape}"
+        )
+    box: list[float] = floats(given, "bounds").tolist()
+    return box
 
 
 class Volume(Shown):
@@ -41,7 +48,7 @@ class Volume(Shown):
     `show` and `plot` draw its zero set and the layer of nodes in the middle of z.
 
     values: nx x ny x nz. Node i, j, k lies at origin + (i, j, k) * spacing [length]. Raises
-    TypeError and InputError for another shape, and for spacings that are not positive.
+    InputError for what is no such array, and for spacings that are not positive.
 
     >>> Volume(np.zeros((2, 3, 4)), spacing=.5).nodes()[1, 2, 3].tolist()
     [0.5, 1.0, 1.5]
@@ -108,9 +115,13 @@ class Volume(Shown):
         """The surface on which the volume takes the level, larger values outside.
 
         Closed unless it meets the box, or with close_at_box. as_: "pyvista", "trimesh" or "meshio"
-        for that library's object. InputError where the level is met nowhere.
+        for that library's object. InputError where the level is met nowhere, ArgumentError for
+        several levels.
         """
-        core = _core.isosurface(self._handle, float(level), bool(close_at_box), settings(threads))
+        core = _core.isosurface(
+            self._handle, number(level, "level"), truth(close_at_box, "close_at_box"),
+            settings(threads),
+        )  # fmt: skip
         return Mesh._of(core)
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -118,7 +129,7 @@ class Volume(Shown):
 
         Raises UnsupportedError for others, IoError.
         """
-        self._handle.write(os.fspath(path))
+        self._save(path)
 
     def _parts(self) -> tuple[Any, ...]:
         return "grid", self.values, self.spacing, self.origin

@@ -8,6 +8,7 @@ from typing import Any
 
 from distributed import Client
 
+from ._arguments import whole
 from ._batch import BatchSummary
 from ._batch import batch as _batch
 
@@ -20,7 +21,7 @@ def batch(
     shards: 0 for four for each thread of the cluster. A shard whose worker ends is begun again by
     Dask on another one, and leaves out what is done.
     """
-    count = shards or 4 * max(1, sum(client.nthreads().values()))
+    count = whole(shards, "shards", " from 0 on", 0) or 4 * max(1, sum(client.nthreads().values()))
     how.setdefault("processes", 1)
     listed = items if isinstance(items, (str, os.PathLike, Mapping)) else list(items)
     futures = [

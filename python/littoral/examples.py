@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ._errors import InputError
+from ._arguments import whole
 from ._surfaces import Mesh, Polygons
 
 
@@ -18,8 +18,7 @@ def square(n: int) -> Mesh:
 
     Raises InputError unless n is positive.
     """
-    if n < 1:
-        raise InputError(f"n: expected at least one cell, got {n}")
+    n = whole(n, "n", " of cells, at least one", 1)
     i, j = np.meshgrid(np.arange(n + 1), np.arange(n + 1))
     V = np.column_stack([i.ravel() / n, j.ravel() / n, np.zeros((n + 1) ** 2)])
     a = (np.arange(n)[None, :] + (n + 1) * np.arange(n)[:, None]).ravel()
@@ -41,8 +40,7 @@ def sphere(subdivisions: int = 3) -> Mesh:
 
     Raises InputError for fewer than none.
     """
-    if subdivisions < 0:
-        raise InputError(f"subdivisions: expected none or more, got {subdivisions}")
+    subdivisions = whole(subdivisions, "subdivisions", ", none or more", 0)
     golden = (1 + 5**0.5) / 2
     corners = [(0, s, t * golden) for s in (-1, 1) for t in (-1, 1)]
     V = np.array([np.roll(c, k) for c in corners for k in range(3)], float)
@@ -72,6 +70,6 @@ def sphere(subdivisions: int = 3) -> Mesh:
 
 def quads(n: int) -> Polygons:
     """The unit square of n x n squares; raises as `square`."""
-    mesh = square(n)
+    mesh, n = square(n), int(n)
     a = (np.arange(n)[None, :] + (n + 1) * np.arange(n)[:, None]).ravel()
     return Polygons(mesh.points, np.stack([a, a + 1, a + n + 2, a + n + 1], axis=1).tolist())

@@ -8,6 +8,7 @@ from typing import Any
 
 import ray
 
+from ._arguments import whole
 from ._batch import BatchSummary
 from ._batch import batch as _batch
 
@@ -18,7 +19,9 @@ def batch(items: Any, work: Any, out: Any, *, shards: int = 0, **how: Any) -> li
     shards: 0 for four for each CPU of the cluster. A task whose worker ends is begun again by Ray,
     and leaves out what is done.
     """
-    count = shards or 4 * max(1, int(ray.cluster_resources().get("CPU", 1)))
+    count = whole(shards, "shards", " from 0 on", 0) or 4 * max(
+        1, int(ray.cluster_resources().get("CPU", 1))
+    )
     how.setdefault("processes", 1)
     task = ray.remote(num_cpus=1, max_retries=-1)(_batch)
     listed = ray.put(items if isinstance(items, (str, os.PathLike, Mapping)) else list(items))

@@ -6,7 +6,7 @@ from typing import Any, NoReturn
 
 import torch
 
-from ._errors import UnsupportedError
+from ._errors import ArgumentError, InputError, UnsupportedError
 from ._space import SDF as _SDF
 
 
@@ -56,12 +56,12 @@ class SDF(torch.nn.Module):
         self.sdf: _SDF = args[0] if made else _SDF(*args, **options)
 
     def forward(self, points: Any) -> Any:
-        """Distances at points ... x 3; TypeError and ValueError for anything else."""
+        """Distances at points ... x 3; ArgumentError and InputError for anything else."""
         if not isinstance(points, torch.Tensor) or points.is_complex():
             kind = getattr(points, "dtype", type(points).__name__)
-            raise TypeError(f"points: expected a tensor of real numbers, got {kind}")
+            raise ArgumentError(f"points: expected a tensor of real numbers, got {kind}")
         if points.ndim == 0 or points.shape[-1] != 3:
-            raise ValueError(f"points: expected shape ... x 3, got {tuple(points.shape)}")
+            raise InputError(f"points: expected shape ... x 3, got {tuple(points.shape)}")
         if not points.is_floating_point():
             points = points.to(torch.get_default_dtype())
         return _Distance.apply(points, self.sdf)

@@ -25,7 +25,7 @@ def test_pages_and_pictures(square, line, tmp_path, monkeypatch):
     opened: list[str] = []
     monkeypatch.setattr("webbrowser.open", opened.append)
     assert field.show().is_file() and opened[0].startswith("file:")
-    with pytest.raises(TypeError, match="Field"):
+    with pytest.raises(littoral.ArgumentError, match=r"Field.*got Mesh; .* littoral view shows"):
         littoral.show(square)
 
 

@@ -110,7 +110,7 @@ def test_meshio(cube):
     pentagon = littoral.as_surface(meshio.Mesh(points, [("polygon", [[0, 1, 4, 2, 3]])]))
     assert pentagon.corners.tolist() == [0, 1, 4, 2, 3]
     assert littoral.as_surface(meshio.Mesh(points, [])).kind == "point cloud"
-    with pytest.raises(ValueError, match="of tetra has no triangles"):
+    with pytest.raises(ValueError, match=r"of tetra has no triangles.* littoral\.TetMesh\("):
         littoral.as_surface(meshio.Mesh(points, [("tetra", [[0, 1, 2, 4]])]))
 
 

@@ -20,6 +20,7 @@ CALLS: dict[str, Callable[[Any], object]] = {
     "rows of tets": lambda told: littoral.distance_matrix(TETS, [0, 5, 9], progress=told),
     "offset": lambda told: littoral.offset(CUBE, [0.1, 0.2], resolution=24, progress=told),
     "repair": lambda told: littoral.repair(CUBE, resolution=24, remesh=True, progress=told),
+    "signed heat": lambda told: littoral.signed_heat_grid(CUBE, resolution=9, progress=told),
     "surface": lambda told: littoral.distance(CUBE, points=0, progress=told),
 }
 

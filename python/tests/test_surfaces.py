@@ -117,7 +117,7 @@ def test_points_in_every_form_are_the_same(square):
         ({"points": 1.5}, TypeError, "points"),
         ({"curves": [[0, 99]]}, IndexError, r"curves\[0\]"),
         ({"curves": [[0, "a"]]}, TypeError, r"curves\[0\]"),
-        ({"curves": [[0, 9]], "signed": [True, False]}, ValueError, "2 truth values for 1 curves"),
+        ({"curves": [[0, 9]], "signed": [True, False]}, ValueError, "2 truth values for 1 curve$"),
         ({"curves": np.zeros((3, 2))}, ValueError, "n x 3"),
         ({}, ValueError, "source"),
         ({"points": 0, "method": "exat"}, ValueError, "did you mean 'exact'"),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import operator
 import warnings
 from collections.abc import Iterable
 from typing import Any, NoReturn
@@ -10,9 +9,10 @@ from typing import Any, NoReturn
 import numpy as np
 import numpy.typing as npt
 
+from .._arguments import integer, number
 from .._arrays import Floats, Ints, as_array, check_range, floats, ints
 from .._distance import Field
-from .._errors import InputError, UnsupportedError
+from .._errors import ArgumentError, InputError, UnsupportedError
 from .._sources import Curve, SurfacePoint
 from .._surfaces import Mesh, Surface
 
@@ -48,13 +48,8 @@ def space_points(value: Any, name: str) -> Floats:
 
 
 def one_index(value: Any, count: int, name: str, of: str) -> int:
-    """An integer below `count`; raises TypeError or IndexOutOfRange."""
-    if isinstance(value, (bool, np.bool_)):
-        raise TypeError(f"{name}: expected an integer, got {value!r}")
-    try:
-        index = operator.index(value)
-    except TypeError:
-        raise TypeError(f"{name}: expected an integer, got {value!r}") from None
+    """An integer below `count`; raises ArgumentError or IndexOutOfRange."""
+    index = integer(value, name)
     check_range(np.array([index]), count, name, of)
     return index
 
@@ -72,10 +67,10 @@ def surface_point(value: Any, name: str) -> SurfacePoint:
     """potpourri3d's (element, barycentric): none for a vertex, t for an edge, two or three numbers
     for a face. A plain integer is a vertex."""
     if isinstance(value, (int, np.integer)) and not isinstance(value, bool):
-        return SurfacePoint.vertex(int(value))
+        return SurfacePoint.vertex(integer(value, name))
     if not isinstance(value, (tuple, list)) or len(value) != 2:
-        raise TypeError(f"{name}: expected (element, [barycentric]), got {value!r}")
-    element = operator.index(value[0])
+        raise ArgumentError(f"{name}: expected (element, [barycentric]), got {value!r}")
+    element = integer(value[0], name)
     b = floats(value[1], f"{name}'s barycentric coordinates")
     if len(b) == 0:
         return SurfacePoint.vertex(element)
@@ -91,7 +86,7 @@ def surface_point(value: Any, name: str) -> SurfacePoint:
 def surface_curves(curves: Any) -> list[list[SurfacePoint]]:
     """A list of curves, each a list of such points."""
     if not isinstance(curves, Iterable) or isinstance(curves, str):
-        raise TypeError(f"curves: expected a list of curves, got {curves!r}")
+        raise ArgumentError(f"curves: expected a list of curves, got {curves!r}")
     return [
         [surface_point(node, f"curves[{i}][{j}]") for j, node in enumerate(curve)]
         for i, curve in enumerate(curves)
@@ -101,17 +96,17 @@ def surface_curves(curves: Any) -> list[list[SurfacePoint]]:
 def vertex_curves(curves: Any, surface: Surface, of: str) -> list[Curve]:
     """A list of curves, each a list of vertices or points of a cloud."""
     if not isinstance(curves, Iterable) or isinstance(curves, str):
-        raise TypeError(f"curves: expected a list of curves, got {curves!r}")
+        raise ArgumentError(f"curves: expected a list of curves, got {curves!r}")
     n = surface.n_vertices
     return [Curve(indices(c, n, f"curves[{i}]", of)) for i, c in enumerate(curves)]
 
 
 def positive(value: Any, name: str) -> float:
     """A finite number above 0."""
-    number = float(value)
-    if not (np.isfinite(number) and number > 0):
-        raise InputError(f"{name}: expected a positive number, got {number}")
-    return number
+    found = number(value, name)
+    if not (np.isfinite(found) and found > 0):
+        raise InputError(f"{name}: expected a positive number, got {found}")
+    return found
 
 
 def answer(field: Field, leave_out: str | None = None) -> Floats:

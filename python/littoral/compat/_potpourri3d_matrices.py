@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from .._arguments import number
 from .._arrays import Floats, floats
 from .._surfaces import Mesh
 from ._arguments import Indices, triangle_mesh
@@ -27,7 +28,7 @@ def cotan_laplacian(V: Any, F: Any, denom_eps: float = 0.0) -> Any:
     for k in range(3):
         apex, a, b = (corners[:, (k + i) % 3] for i in range(3))
         to_a, to_b = P[a] - P[apex], P[b] - P[apex]
-        crossed = np.linalg.norm(np.cross(to_a, to_b), axis=1) + float(denom_eps)
+        crossed = np.linalg.norm(np.cross(to_a, to_b), axis=1) + number(denom_eps, "denom_eps")
         with np.errstate(divide="ignore", invalid="ignore"):
             half_cotan = 0.5 * np.einsum("ij,ij->i", to_a, to_b) / crossed
         off_diagonal = off_diagonal + csr_matrix((half_cotan, (a, b)), shape)

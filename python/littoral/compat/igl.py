@@ -22,9 +22,10 @@ from typing import Any
 
 import numpy as np
 
+from .._arguments import number
 from .._arrays import Array, Floats, Ints, as_array, check_range, floats, ints
 from .._distance import DistanceSolver, distance
-from .._errors import InputError
+from .._errors import ArgumentError, InputError
 from .._space import SDF, Closest
 from .._surfaces import Mesh, PointCloud
 from ._arguments import (
@@ -122,10 +123,10 @@ def signed_distance(
     if queries.ndim == 2 and queries.shape[1] == 2:
         unsupported("signed distance in the plane", "use libigl itself, or 3D triangles")
     if getattr(sign_type, "name", None) not in SignedDistanceType.__members__:
-        raise TypeError(f"sign_type: expected a SignedDistanceType, got {sign_type!r}")
+        raise ArgumentError(f"sign_type: expected a SignedDistanceType, got {sign_type!r}")
     sign = SignedDistanceType[sign_type.name]
     x = floats(queries, "P", 3)
-    low, high = float(lower_bound), float(upper_bound)
+    low, high = number(lower_bound, "lower_bound"), number(upper_bound, "upper_bound")
     if np.isnan(low) or np.isnan(high) or low > high:
         raise InputError(f"lower_bound {low} must be at most upper_bound {high}")
     mesh = triangle_mesh(V, F)
@@ -207,7 +208,7 @@ def winding_number(V: Any, F: Any, O: Any = None, *, o: Any = None) -> Any:  # n
     1.0
     """
     if (O is None) == (o is None):
-        raise TypeError("winding_number: expected V, F and O, or V, F and o")
+        raise ArgumentError("winding_number: expected V, F and O, or V, F and o")
     queries = as_array(O if o is None else o, "O")
     if queries.shape[-1:] == (2,):
         unsupported("winding numbers in the plane", "use libigl itself, or 3D triangles")
@@ -261,7 +262,7 @@ def _in_order(
         or set(named) & set(given)
         or set(needed) - set(given) - set(named)
     ):
-        raise TypeError(f"fast_winding_number: expected {', '.join(needed)} or (V, F, Q)")
+        raise ArgumentError(f"fast_winding_number: expected {', '.join(needed)} or (V, F, Q)")
     given.update(named)
     return [given.get(name) for name in expected]
 
@@ -319,7 +320,7 @@ def heat_geodesics_precompute(
     if isinstance(t, HeatGeodesicsData):
         t, data = None, t
     if not isinstance(data, HeatGeodesicsData):
-        raise TypeError(f"data: expected HeatGeodesicsData, got {type(data).__name__}")
+        raise ArgumentError(f"data: expected HeatGeodesicsData, got {type(data).__name__}")
     mesh = triangle_mesh(V, F, flat=True)
     a, b = mesh.points[mesh.edges[:, 0]], mesh.points[mesh.edges[:, 1]]
     h = float(np.linalg.norm(b - a, axis=1).mean())
@@ -342,7 +343,7 @@ def heat_geodesics_solve(data: HeatGeodesicsData, gamma: Any) -> Floats:
     True
     """
     if not isinstance(data, HeatGeodesicsData):
-        raise TypeError(f"data: expected HeatGeodesicsData, got {type(data).__name__}")
+        raise ArgumentError(f"data: expected HeatGeodesicsData, got {type(data).__name__}")
     if data._solver is None:
         raise InputError("data: call heat_geodesics_precompute first")
     given = indices(gamma, data._solver.mesh.n_vertices, "gamma", "vertices")

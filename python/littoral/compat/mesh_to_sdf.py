@@ -26,8 +26,9 @@ from typing import Any, NoReturn
 
 import numpy as np
 
+from .._arguments import whole
 from .._arrays import Array, Floats
-from .._errors import InputError, UnsupportedError
+from .._errors import ArgumentError, InputError, UnsupportedError
 from .._foreign import as_surface
 from .._surfaces import Mesh, Polygons, Surface
 from ._nearest import Nearest, face_normals, prepared
@@ -98,7 +99,9 @@ def mesh_to_sdf(
     [-0.5, 2.0]
     """
     if not isinstance(query_points, np.ndarray):
-        raise TypeError(f"query_points: expected a numpy array, got {type(query_points).__name__}")
+        raise ArgumentError(
+            f"query_points: expected a numpy array, got {type(query_points).__name__}"
+        )
     if query_points.ndim != 2 or query_points.shape[1] != 3:
         raise InputError(f"query_points: expected shape n x 3, got {query_points.shape}")
     _check(surface_point_method, sign_method)
@@ -107,11 +110,16 @@ def mesh_to_sdf(
     return prepared(mesh).signed(query_points).astype(np.float32)
 
 
+def _integer(value: Any, name: str, least: int) -> int:
+    """A whole number of at least that many, also as a float."""
+    if isinstance(value, bool):
+        raise ArgumentError(f"{name}: expected an integer, got {value}")
+    return whole(value, name, f" of at least {least}", least)
+
+
 def _raster(resolution: int) -> Floats:
     """resolution^3 x 3: nodes from -1 to 1, z fastest."""
-    if isinstance(resolution, bool) or int(resolution) != resolution or resolution < 2:
-        raise InputError(f"voxel_resolution: expected an integer of at least 2, got {resolution}")
-    axis = np.linspace(-1, 1, int(resolution)).astype(np.float32).astype(np.float64)
+    axis = np.linspace(-1, 1, resolution).astype(np.float32).astype(np.float64)
     return np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), axis=-1).reshape(-1, 3)
 
 
@@ -146,9 +154,10 @@ def mesh_to_voxels(
     ((5, 5, 5), -1.0)
     """
     _check(surface_point_method, sign_method)
-    points = _raster(voxel_resolution)
+    side = _integer(voxel_resolution, "voxel_resolution", 2)
+    points = _raster(side)
     near = _scaled(mesh, to_sphere=False)
-    shape = (int(voxel_resolution),) * 3
+    shape = (side,) * 3
     gradients: Array = np.empty(0)
     values: Array
     if return_gradients:
@@ -221,9 +230,7 @@ def sample_sdf_near_surface(
     ((100, 3), (100,))
     """
     _check(surface_point_method, sign_method)
-    count = int(number_of_points)
-    if isinstance(number_of_points, bool) or count != number_of_points or count < 1:
-        raise InputError(f"number_of_points: expected a positive integer, got {number_of_points!r}")
+    count = _integer(number_of_points, "number_of_points", 1)
     near = _scaled(mesh, to_sphere=True)
     close = int(count * 47 / 50) // 2
     surface = _on_surface(near, close)

@@ -23,7 +23,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._arrays import Array, Floats, as_array, floats, ints
-from .._errors import InputError, UnsupportedError
+from .._errors import ArgumentError, InputError, UnsupportedError
 from .._foreign import as_surface
 from .._surfaces import Mesh
 from ._nearest import Nearest, face_normals
@@ -117,7 +117,9 @@ class RaycastingScene:
         if mesh is None and triangle_indices is None:
             mesh = vertex_positions
         elif mesh is not None and (vertex_positions is not None or triangle_indices is not None):
-            raise TypeError("add_triangles: expected a mesh, or vertices and triangles, not both")
+            raise ArgumentError(
+                "add_triangles: expected a mesh, or vertices and triangles, not both"
+            )
         vertices: Array
         triangles: Array
         if mesh is not None:

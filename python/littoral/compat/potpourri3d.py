@@ -23,9 +23,10 @@ from typing import Any
 
 import numpy as np
 
+from .._arguments import number
 from .._arrays import Floats, as_array, floats
 from .._distance import DistanceSolver
-from .._errors import InputError
+from .._errors import ArgumentError, InputError
 from .._sources import Curve
 from .._surfaces import Mesh, PointCloud, Polygons, Surface
 from ._arguments import (
@@ -96,7 +97,7 @@ _CONSTRAINTS = {"none": "none", "zeroset": "zero_set", "multiple": "level_sets"}
 def _constraint(name: str) -> str:
     """littoral's word for "ZeroSet", "None" or "Multiple", in letters of either case."""
     if not isinstance(name, str):
-        raise TypeError(f"level_set_constraint: expected a word, got {name!r}")
+        raise ArgumentError(f"level_set_constraint: expected a word, got {name!r}")
     if name.lower() not in _CONSTRAINTS:
         raise InputError(
             f"level_set_constraint: expected 'ZeroSet', 'None' or 'Multiple', got {name!r}"
@@ -236,7 +237,7 @@ class MeshMarchingTrianglesSolver:
             raise InputError(
                 f"u: expected {self._mesh.n_vertices} values, one per vertex, got {len(values)}"
             )
-        return level_lines(self._mesh, values, float(isoval))
+        return level_lines(self._mesh, values, number(isoval, "isoval"))
 
 
 def marching_triangles(

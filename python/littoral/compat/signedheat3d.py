@@ -34,6 +34,7 @@ from typing import Any
 
 import numpy as np
 
+from .._arguments import number
 from .._arrays import Array, Floats, Ints, as_array, floats
 from .._errors import InputError
 from .._report import Report
@@ -65,7 +66,7 @@ class _Options:
         for name in given:
             if name not in _KNOWN:
                 raise InputError(f"options: {name!r} is unknown; there are {', '.join(_KNOWN)}")
-        self.time_scale = float(given.get("t_coef", t_coef))
+        self.time_scale = number(given.get("t_coef", t_coef), "t_coef")
         if not 0 < self.time_scale < np.inf:
             raise InputError(f"t_coef: expected a positive number, got {self.time_scale}")
         self._level_set = str(given.get("level_set_constraint", "ZeroSet"))

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from ..._arguments import number
 from ..._arrays import Floats, Ints, floats
 from ..._errors import InputError, IoError
 from .._arguments import Indices, indices, one_index, own, triangle_mesh
@@ -65,7 +66,7 @@ class PyGeodesicAlgorithmExact:
             if source_indices is None
             else indices(_flat(source_indices, "source_indices"), n, "source_indices", "vertices")
         )
-        limit = float(max_distance)
+        limit = number(max_distance, "max_distance")
         if not limit >= 0:
             raise InputError(f"max_distance: expected a number of at least 0, got {limit}")
         best = np.full(n, -1, np.int32)

@@ -46,6 +46,21 @@ TEST(BesideAutomatic, MethodsThatLoseTheSideSaySo) {
   }
 }
 
+TEST(BesideAutomatic, ThinPartsHaveTheirInsideNextToTheSurface) {
+  for (const bool turned : {false, true}) {
+    PolygonSoup plate = test::octasphere_soup(4);
+    plate.points.col(2) *= 0.06;  // three spacings at most
+    if (turned)
+      for (int f = 0; f < plate.n_faces(); ++f)
+        std::swap(plate.corners[3 * std::size_t(f)], plate.corners[3 * std::size_t(f) + 1]);
+    const CsgShapes shapes = ball_by(AnyMethod::named("winding"), plate);
+    const Grid grid = choose_grid(shapes, {.resolution = 48});
+    Report report;
+    grid_distance(shapes, grid, {}, report);
+    EXPECT_EQ(warns(report), turned);
+  }
+}
+
 TEST(BesideAutomatic, FieldsToBeAskedAtPointsToo) {
   for (const bool turned : {false, true}) {
     const PolygonSoup ball = test::octasphere_soup(2);

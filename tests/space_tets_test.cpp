@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -197,6 +198,38 @@ TEST(SignedHeatTets, OneSolveIsAsTheSolvesOnAFactor) {
     const VecX once = by(SolveHint::single_rhs), factored = by(SolveHint::many_rhs);
     EXPECT_LT((once - factored).cwiseAbs().maxCoeff(), 1e-9) << time_scale;
     EXPECT_NE(once, factored) << time_scale << ": two ways indeed, of " << ops->n_faces << " faces";
+  }
+}
+
+TEST(SpaceTets, WhereTheGradientIsOffUnitLengthHeatSaysSo) {
+  for (const bool uneven : {false, true}) {
+    TetMesh mesh = test::tet_box(8);
+    if (uneven) mesh.points = mesh.points.array().pow(4).matrix().eval();  // crowded at the source
+    TetSources sources;
+    sources.vertices = {uneven ? 0 : 364};  // a corner, or the middle
+    Report report;
+    const VecX d = test::tet_mesh_distance(mesh, sources, SpaceSignedHeat{}, report);
+    double share = -1;
+    for (const auto& [name, value] : report.residuals)
+      if (name == "volume fraction with gradient off unit length") share = value;
+    // The same by hand: linear functions on tets.
+    double off = 0, all = 0;
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
+      Eigen::Matrix3d E;
+      Vec3 rise;
+      for (int k = 0; k < 3; ++k) {
+        E.row(k) = mesh.points.row(mesh.tets(t, k + 1)) - mesh.points.row(mesh.tets(t, 0));
+        rise[k] = d[mesh.tets(t, k + 1)] - d[mesh.tets(t, 0)];
+      }
+      const double volume = std::abs(E.determinant());
+      all += volume;
+      if (std::abs((E.inverse() * rise).norm() - 1) > 0.25) off += volume;
+    }
+    EXPECT_NEAR(share, off / all, 1e-6);
+    EXPECT_EQ(share > 0.3, uneven);
+    EXPECT_EQ(std::ranges::any_of(report.warnings,
+                                  [](const auto& w) { return w.code == "gradient-off-unit"; }),
+              uneven);
   }
 }
 

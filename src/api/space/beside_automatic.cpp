@@ -20,6 +20,9 @@ constexpr int most_nodes_beside = 512;
 // distance, those that were wrong by 0.5 to 1 or in a third of what is inside.
 constexpr double largest_difference = 0.25, largest_share = 0.25;
 constexpr int fewest_nodes = 5;
+// Of thin parts all of the inside lies next to the surface: nodes count by a quarter of the spacing
+// there, if nearly all are inside by one alone.
+constexpr double next_to = 0.25, nearly_all = 0.75;
 
 }  // namespace
 
@@ -68,21 +71,30 @@ void check_beside_automatic(const PolygonSoup& input, const Grid& grid,
     return;
   }
   double difference = 0, size = 0;
-  int compared = 0, inside = 0, one_alone = 0;
+  int compared = 0, inside = 0, one_alone = 0, thin = 0, thin_alone = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const auto row = index(i);
     const double here = values[row], there = expected[row];
     // Next to the surface methods differ by what they smooth.
-    if (!std::isfinite(here) || !(std::abs(there) > grid.spacing.maxCoeff())) continue;
+    const bool alone = (here < 0) != (there < 0), either = here < 0 || there < 0;
+    if (!std::isfinite(here) || !(std::abs(there) > next_to * grid.spacing.maxCoeff())) continue;
+    thin += either;
+    thin_alone += alone;
+    if (!(std::abs(there) > grid.spacing.maxCoeff())) continue;
     ++compared;
     difference += std::abs(here - there);
     size += std::abs(there);
-    inside += here < 0 || there < 0;
-    one_alone += (here < 0) != (there < 0);
+    inside += either;
+    one_alone += alone;
   }
   if (compared < fewest_nodes) return;
   report.residuals.emplace_back("mean difference from method auto", difference / size);
-  const bool sides = one_alone >= fewest_nodes && one_alone > largest_share * inside;
+  bool sides = one_alone >= fewest_nodes && one_alone > largest_share * inside;
+  if (!sides && thin_alone >= fewest_nodes && thin_alone > nearly_all * thin) {
+    sides = true;
+    one_alone = thin_alone;
+    inside = thin;
+  }
   if (!sides && !(difference > largest_difference * size)) return;
   report.warn("sign-uncertain",
               "at " + std::to_string(compared) +

@@ -6,8 +6,10 @@
 #include "api/tet/tet_domain.h"
 #include "base/index.h"
 #include "base/lazy.h"
+#include "base/option_table.h"
 #include "methods/heat/sharpen.h"
 #include "methods/heat/signed_heat_tets.h"
+#include "methods/heat/time_scale.h"
 #include "sources/space/parts_of_samples.h"
 #include "sources/space/tet_source_values.h"
 
@@ -87,6 +89,20 @@ VecX solve_on(const TetHeatSolver& heat, const TetProblem& problem, const SpaceS
              : heat.unsigned_distance(problem.terms(), edge, tolerance, options, task, report);
 }
 
+/// On meshes of the data that are fine enough for their sources up to a fifth was seen, with mean
+/// errors of 7 % of the largest distance; with half of the volume 6 to 11 %.
+void warn_off_unit_volume(const Calculus& C, const VecX& phi, Report& report) {
+  constexpr double remarkable = 0.3;
+  const double share = off_unit_fraction(C, phi);
+  report.residuals.emplace_back("volume fraction with gradient off unit length", share);
+  if (share > remarkable)
+    report.warn("gradient-off-unit",
+                "the gradient of the distance is more than a quarter off unit length on " +
+                    percent_text(share) +
+                    " of the volume: the tets are too coarse, or too uneven, for heat from these "
+                    "sources; method auto or quadratic measures better");
+}
+
 /// Each component is a problem of its own.
 class HeatThroughTets {
  public:
@@ -118,6 +134,7 @@ class HeatThroughTets {
     if (options.sharpen)
       phi = sharpened_on_tets(problem.ops, "tet mesh", problem.terms().A, phi,
                               task.stage(0.5, "sharpening"), report);
+    warn_off_unit_volume(tet_calculus(problem.ops), phi, report);
     return phi;
   }
 

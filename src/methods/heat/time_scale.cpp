@@ -67,6 +67,19 @@ double misaligned_fraction(const Calculus& C, const VecX& phi, const VecX& Y) {
   return gradient_shares(C, phi, Y).against;
 }
 
+double off_unit_fraction(const Calculus& C, const VecX& phi) {
+  const VecX g = C.G.apply(phi);
+  const Eigen::Index dimension = g.size() / std::max<Eigen::Index>(1, C.A.size());
+  double off_unit = 0, all = 0;
+  for (Eigen::Index c = 0; c < C.A.size(); ++c) {
+    const double length = g.segment(dimension * c, dimension).norm();
+    if (!std::isfinite(length)) continue;  // no source reaches it
+    all += C.A[c];
+    if (!(std::abs(length - 1) <= off_unit_by)) off_unit += C.A[c];
+  }
+  return all > 0 ? off_unit / all : 0;
+}
+
 void report_gradient(const Calculus& C, const VecX& phi, const VecX& Y, Report& report) {
   const Shares shares = gradient_shares(C, phi, Y);
   report.residuals.emplace_back(misaligned_area_fraction, shares.against);

@@ -40,6 +40,8 @@ inline constexpr const char* off_unit_area_fraction = "area fraction with gradie
 inline constexpr double off_unit_by = 0.25;
 /// Reports both.
 void report_gradient(const Calculus& C, const VecX& phi, const VecX& Y, Report& report);
+/// The same share of all cells that a source reaches, of any dimension.
+double off_unit_fraction(const Calculus& C, const VecX& phi);
 /// Warns, with what that means and what helps (without a stop), where the gradient of an answer is
 /// off unit length on more of the surface than meshes and sources for which the method is right
 /// have shown.

@@ -109,7 +109,7 @@ TEST(Isosurface, RandomFieldsGiveManifolds) {
 }
 
 // Small whole numbers: values exactly at the level, equal neighbours, saddles at the level.
-TEST(Isosurface, ValuesAtTheLevelMakeNoDegenerateTriangles) {
+TEST(IsosurfaceSlow, ValuesAtTheLevelMakeNoDegenerateTriangles) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     std::mt19937 random(seed);
     std::uniform_int_distribution<int> whole(-1 - static_cast<int>(seed % 3), 2);
@@ -157,7 +157,7 @@ TEST(Isosurface, ClosedAtTheBoxWhereAsked) {
 }
 
 // The trilinear interpolant itself, sampled finely, is what the topology has to agree with.
-TEST(Isosurface, TopologyOfTheTrilinearInterpolant) {
+TEST(IsosurfaceSlow, TopologyOfTheTrilinearInterpolant) {
   int wrong = 0, handles = 0;
   for (unsigned seed = 0; seed < 24; ++seed) {
     std::mt19937 random(seed);

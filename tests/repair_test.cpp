@@ -252,7 +252,7 @@ TEST(Repair, RefinesUntilTheErrorIsMet) {
   EXPECT_LE(test::size_named(out.report, "result to input and closure: largest"), 0.004);
 }
 
-TEST(Repair, StopsWhereRefiningDoesNotLowerTheError) {
+TEST(RepairSlow, StopsWhereRefiningDoesNotLowerTheError) {
   // Walls about a sheet are three spacings thick where the sheet has an inside nowhere; given
   // their thickness, their surface stays half of it away, however fine the grid.
   const PolygonSoup sheet = test::grid_soup(2, 2);

@@ -106,7 +106,7 @@ TEST(RepairWallsSlow, ThinPartsBecomeWallsAsAWhole) {
   }
 }
 
-TEST(RepairWalls, ThinPartsBecomeWallsWhereTheyAreTornAlone) {
+TEST(RepairWallsSlow, ThinPartsBecomeWallsWhereTheyAreTornAlone) {
   // As thick as a spacing, nearly: the surface has holes, but misses little of the area.
   const PolygonSoup box = test::box_soup(Vec3(0.5, 0.4, 0.3));
   RepairOptions options;

@@ -14,6 +14,7 @@
 #include "methods/heat/signed_heat_tets.h"
 #include "operators/tet_operators.h"
 #include "space_helpers.h"
+#include "tet_helpers.h"
 
 namespace littoral {
 namespace {

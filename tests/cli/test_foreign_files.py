@@ -165,3 +165,30 @@ def test_required_extensions_are_named(run: Run, tmp_path: Path) -> None:
     document = {"asset": {"version": "2.0"}, "extensionsRequired": ["KHR_draco_mesh_compression"]}
     (tmp_path / "a.gltf").write_text(json.dumps(document))
     assert "'KHR_draco_mesh_compression'" in run("info", "a.gltf", status=2).stderr
+
+
+def test_colours_of_a_ply_that_are_numbers_are_kept(run: Run, tmp_path: Path) -> None:
+    """Scalars of these names are written as they were read, and nothing else as colours."""
+    header = "ply\nformat ascii 1.0\nelement vertex 3\n"
+    header += "".join(f"property float {x}\n" for x in ("x", "y", "z", "red", "green", "blue"))
+    header += "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    (tmp_path / "a.ply").write_text(
+        header + "0 0 0 0.5 0 1\n1 0 0 0.25 0 1\n0 1 0 0 0.125 1\n3 0 1 2\n"
+    )
+    run("convert", "a.ply", "-o", "b.ply")
+    for field, expected in (("red", [0.5, 0.25, 0]), ("green", [0, 0, 0.125])):
+        run("convert", "b.ply", "--field", field, "-o", "c.csv")
+        lines = (tmp_path / "c.csv").read_text().splitlines()
+        assert [float(line.split(",")[-1]) for line in lines[1:]] == expected
+    assert b"property double red" in (tmp_path / "b.ply").read_bytes()
+    assert b"uchar red" not in (tmp_path / "b.ply").read_bytes()
+
+
+def test_an_nrrd_of_colours_is_no_volume(run: Run, tmp_path: Path) -> None:
+    for kinds, status in (("RGB-color domain domain", 2), ("domain domain domain", 0)):
+        (tmp_path / "a.nrrd").write_text(
+            f"NRRD0004\ntype: double\ndimension: 3\nsizes: 3 2 2\nkinds: {kinds}\n"
+            "encoding: ascii\n\n" + " ".join(map(str, range(12))) + "\n"
+        )
+        made = run("info", "a.nrrd", status=status)
+        assert ("'RGB-color'" in made.stderr) == (status != 0)

@@ -123,3 +123,9 @@ def test_options_are_looked_at_where_triangles_are_kept(
     )
     failed = run("repair", "closed.obj", option, "-o", "out.obj", status=2)
     assert "has no option" in failed.stderr and "unknown-name" in failed.stderr
+
+
+def test_walls_far_beyond_the_input_are_refused(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "open.obj").write_text(CUBE)
+    failed = run("repair", "open.obj", "--thicken", "1e9", "-o", "out.obj", status=2)
+    assert "option --thicken must be at most 100 times as long as the input" in failed.stderr

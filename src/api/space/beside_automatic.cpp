@@ -22,7 +22,7 @@ constexpr double largest_difference = 0.25, largest_share = 0.25;
 constexpr int fewest_nodes = 5;
 // Of thin parts all of the inside lies next to the surface: nodes count by a quarter of the spacing
 // there, if nearly all are inside by one alone.
-constexpr double next_to = 0.25, nearly_all = 0.75;
+constexpr double next_to = 0.25, almost_all_alone = 0.75;
 
 }  // namespace
 
@@ -90,7 +90,7 @@ void check_beside_automatic(const PolygonSoup& input, const Grid& grid,
   if (compared < fewest_nodes) return;
   report.residuals.emplace_back("mean difference from method auto", difference / size);
   bool sides = one_alone >= fewest_nodes && one_alone > largest_share * inside;
-  if (!sides && thin_alone >= fewest_nodes && thin_alone > nearly_all * thin) {
+  if (!sides && thin_alone >= fewest_nodes && thin_alone > almost_all_alone * thin) {
     sides = true;
     one_alone = thin_alone;
     inside = thin;

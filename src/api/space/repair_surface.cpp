@@ -118,6 +118,9 @@ Made contoured(const PolygonSoup& input, const RepairOptions& options, const Spa
   Made made;
   const Box box = bounding_box(input);
   const double side = box.size().maxCoeff();
+  if (options.thicken > 100 * side)
+    throw InputError("option thicken must be at most 100 times as long as the input",
+                     "option-value");
   SpaceAnswer answer;
   const auto measure = [&](double wall) {
     report = before;
@@ -321,10 +324,6 @@ void compare(const PolygonSoup& input, Made& made, bool thickened, Report& repor
   }
 }
 
-double largest_error(const Report& report) {
-  return size_named(report, "result to input and closure: largest");
-}
-
 }  // namespace
 
 PolygonSoup repair_surface(const PolygonSoup& input, const RepairOptions& options,
@@ -375,7 +374,7 @@ PolygonSoup repair_surface(const PolygonSoup& input, const RepairOptions& option
       why_not_finer = "; a finer grid is too large";
       break;
     }
-    const double error = largest_error(report);
+    const double error = size_named(report, "result to input and closure: largest");
     if (error <= options.error) return surface;
     in_vain = error < lowered * least ? 0 : in_vain + 1;
     if (error < least) {

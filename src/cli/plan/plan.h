@@ -31,9 +31,10 @@ RunPlan plan_on(const AnyMethod& method, const D& domain) {
   RunPlan plan{method.name(), domain.kind(), Registry<D>::instance().infos(), {}, 0};
   plan.elements = static_cast<double>(mesh.n_vertices());
   plan.sizes = {{"vertices", plan.elements}};
-  if constexpr (requires { mesh.n_tets(); })
+  if constexpr (requires { mesh.n_tets(); }) {
     plan.sizes.emplace_back("tets", static_cast<double>(mesh.n_tets()));
-  else
+    plan.like = "tets";  // no row: what lies in sight of what decides, not how much there is
+  } else
     plan.sizes.emplace_back("faces", static_cast<double>(mesh.n_faces()));
   return plan;
 }

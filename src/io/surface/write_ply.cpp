@@ -13,6 +13,8 @@
 namespace littoral::io {
 namespace {
 
+constexpr std::array<const char*, 3> colour_names{"red", "green", "blue"};
+
 std::size_t largest_face(const PolygonSoup& soup) {
   std::size_t largest = 0;
   for (int f = 0; f < soup.n_faces(); ++f) largest = std::max(largest, soup.face(f).size());
@@ -23,13 +25,18 @@ std::size_t largest_face(const PolygonSoup& soup) {
 void check_names(const PolygonSoup& soup) {
   for (const auto& [field, values] : soup.scalars) {
     const bool word = std::ranges::all_of(field, [](char c) { return c > ' ' && c <= '~'; });
-    const std::array<std::string_view, 9> taken{"x",  "y",   "z",     "nx",  "ny",
-                                                "nz", "red", "green", "blue"};
+    const std::array<std::string_view, 6> taken{"x", "y", "z", "nx", "ny", "nz"};
     if (word && !field.empty() && std::ranges::find(taken, field) == taken.end()) continue;
     throw UnsupportedError(
         "the scalar " + in_quotes(field) + " cannot be the name of a PLY property; rename it",
         "unsupported-file");
   }
+}
+
+/// Are there scalars of these names? Then nothing else is written as colours.
+bool has_colour_names(const PolygonSoup& soup) {
+  return std::ranges::any_of(colour_names,
+                             [&](const char* name) { return soup.scalars.count(name) > 0; });
 }
 
 void write_header(std::ostream& out, const PolygonSoup& soup, bool small_faces, bool colours) {
@@ -40,7 +47,7 @@ void write_header(std::ostream& out, const PolygonSoup& soup, bool small_faces, 
     if (soup.normals.rows() > 0) out << "property double " << name << '\n';
   }
   for (const auto& [name, values] : soup.scalars) out << "property double " << name << '\n';
-  for (const char* name : {"red", "green", "blue"})
+  for (const char* name : colour_names)
     if (colours) out << "property uchar " << name << '\n';
   out << "element face " << soup.n_faces() << '\n';
   out << "property list " << (small_faces ? "uchar" : "int") << " int vertex_indices\n";
@@ -59,7 +66,8 @@ void write_ply(std::ostream& out, const PolygonSoup& soup, const std::string& fi
   check_names(soup);
   const auto shown = soup.scalars.find(field);
   std::vector<Rgb> colours;
-  if (shown != soup.scalars.end()) colours = value_colours(shown->second, field);
+  if (shown != soup.scalars.end() && !has_colour_names(soup))
+    colours = value_colours(shown->second, field);
   const bool small_faces = largest_face(soup) <= 255;
   write_header(out, soup, small_faces, !colours.empty());
   for (Eigen::Index v = 0; v < soup.points.rows(); ++v) {

@@ -31,6 +31,7 @@ class NrrdReader {
       throw UnsupportedError(
           name_ + ": the data have " + in_quotes(need("dimension")) + " axes; three are read",
           "unsupported-file");
+    check_kinds();
     std::array<std::int64_t, 3> n{};
     Words sizes(need("sizes"));
     for (auto& k : n) {
@@ -49,6 +50,19 @@ class NrrdReader {
   }
 
  private:
+  /// Axes along which there are colours or vectors, not nodes, are no axes of a volume.
+  void check_kinds() const {
+    const auto found = fields_.find("kinds");
+    if (found == fields_.end()) return;
+    Words kinds(found->second);
+    for (std::string_view kind = kinds.next(); !kind.empty(); kind = kinds.next()) {
+      const std::string lower = lower_case(std::string(kind));
+      if (lower != "domain" && lower != "space" && lower != "none" && lower != "???")
+        throw UnsupportedError(name_ + ": along one axis lies " + in_quotes(kind) +
+                                   "; volumes of one number at each node are read",
+                               "unsupported-file");
+    }
+  }
   // Words between blanks.
   class Words {
    public:

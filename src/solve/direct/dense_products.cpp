@@ -248,7 +248,7 @@ constexpr Kernels<Scalar> plain = Kernels<Scalar>::template of<
     PlainTile<Scalar>, PlainRows, &plain_tile<Scalar>, &plain_rows<Scalar>>();
 
 template <class Scalar>
-const Kernels<Scalar>& kernels(Instructions allowed) {
+const Kernels<Scalar>& kernels([[maybe_unused]] Instructions allowed) {
 #if defined(__x86_64__)
   static constexpr auto avx2 =
       Kernels<Scalar>::template of<Avx2Tile<Scalar>, Avx2Rows, &avx2_tile<Scalar>,

@@ -75,11 +75,11 @@ void check_beside_automatic(const PolygonSoup& input, const Grid& grid,
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const auto row = index(i);
     const double here = values[row], there = expected[row];
-    // Next to the surface methods differ by what they smooth.
     const bool alone = (here < 0) != (there < 0), either = here < 0 || there < 0;
     if (!std::isfinite(here) || !(std::abs(there) > next_to * grid.spacing.maxCoeff())) continue;
     thin += either;
     thin_alone += alone;
+    // Next to the surface methods differ by what they smooth.
     if (!(std::abs(there) > grid.spacing.maxCoeff())) continue;
     ++compared;
     difference += std::abs(here - there);

@@ -104,14 +104,12 @@ class MarchingFront {
   }
 
   void run(const Task& task) {
-    int n_fixed = 0;
-    while (!queue_.empty()) {
-      const int v = queue_.take();
-      fixed_[v] = 1;
-      if ((++n_fixed & 0xfff) == 0) task.checkpoint(double(n_fixed) / T_.n_vertices);
-      for (const int c : stencils_.corners_at(v)) cross_triangle(c / 3, c % 3);
-      stencils_.for_unfolded_at(v, [&](const UnfoldedStencil& s) { reach_unfolded(s, v); });
-    }
+    march(task);
+    // What only curves' own vertices reach, with no telling on which side, has its distance too.
+    any_side_ = true;
+    for (int v = 0; v < T_.n_vertices; ++v)
+      if (fixed_[v] && on_curve_[v]) reach_from(v);
+    march(task);
   }
 
   /// Signed; nodes on a curve and those that only unsigned sources reach are not negative.
@@ -139,6 +137,19 @@ class MarchingFront {
  private:
   static Complex point(const TriangleShape& t, const std::array<double, 3>& b) {
     return b[0] * t.p[0] + b[1] * t.p[1] + b[2] * t.p[2];
+  }
+
+  void march(const Task& task) {
+    while (!queue_.empty()) {
+      const int v = queue_.take();
+      fixed_[v] = 1;
+      if ((++n_fixed_ & 0xfff) == 0) task.checkpoint(double(n_fixed_) / T_.n_vertices);
+      reach_from(v);
+    }
+  }
+  void reach_from(int v) {
+    for (const int c : stencils_.corners_at(v)) cross_triangle(c / 3, c % 3);
+    stencils_.for_unfolded_at(v, [&](const UnfoldedStencil& s) { reach_unfolded(s, v); });
   }
 
   void offer(int v, double distance, int sign) {
@@ -222,11 +233,11 @@ class MarchingFront {
     // A straight line over unfolded triangles may cross a curve beside its far end; from a vertex
     // on a curve it leaves on the side where the other end is.
     const int side = sign_[last] != 0 ? sign_[last] : on_curve_[last] ? beside_[other] : 0;
-    const bool known = !on_curve_[last] || side != 0 || beside_[v] != 0;
+    const bool known = any_side_ || !on_curve_[last] || side != 0 || beside_[v] != 0;
     if (known && (!in_front || beside_[last] == 0 || beside_[v] != 0))
       offer(v, d_[last] + edge, side);
     if (!fixed_[other] || sign_[last] * sign_[other] < 0 || beside_[v] * sign_[other] < 0) return;
-    if (on_curve_[last] && on_curve_[other] && beside_[v] == 0) return;
+    if (!any_side_ && on_curve_[last] && on_curve_[other] && beside_[v] == 0) return;
     offer(v, arrival(products(), d_[last], d_[other]),
           sign_[last] != 0 ? sign_[last] : sign_[other]);
   }
@@ -241,6 +252,8 @@ class MarchingFront {
   std::vector<signed char> beside_;  // side of the curve next to it, 0 elsewhere
   std::vector<char> on_curve_;       // of those that are signed
   std::vector<char> fixed_;
+  int n_fixed_ = 0;
+  bool any_side_ = false;  // also where a curve's side cannot be told
   FallingKeys queue_;
 };
 

@@ -5,13 +5,12 @@ from __future__ import annotations
 import inspect
 import operator
 import os
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from ._arrays import as_array
-from ._errors import ArgumentError, InputError, IoError, UnsupportedError, coded
+from ._errors import ArgumentError, InputError, IoError, coded
 
 
 def number(value: Any, name: str) -> float:
@@ -87,23 +86,13 @@ def path_of(value: Any, name: str = "path") -> str:
         raise ArgumentError(f"{name}: expected the name of a file, got {value!r}") from None
 
 
-def write_to(path: Any, write: Callable[..., None], *rest: Any, also: str = "") -> None:
-    """Calls `write(path, *rest)`.
-
-    Without a folder to write to the error says so, before anything is made. also: extensions that
-    are written besides those that the library names when it knows none of the kind.
-    """
-    to = path_of(path)
+def path_to_write(value: Any) -> str:
+    """A path as text; IoError, before anything is made, where there is no folder to write to."""
+    to = path_of(value)
     folder = os.path.dirname(to.rstrip(os.sep))
     if folder and not os.path.isdir(folder):
         raise coded(IoError(f"cannot write {to}: there is no folder {folder}"), "cannot-write")
-    try:
-        write(to, *rest)
-    except UnsupportedError as error:
-        said = str(error)
-        if "; possible: " not in said or not also or said.endswith(also):
-            raise
-        raise coded(UnsupportedError(f"{said} {also}"), error.code) from None
+    return to
 
 
 def listener(callback: Any) -> Any:

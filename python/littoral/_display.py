@@ -9,7 +9,7 @@ import webbrowser
 from pathlib import Path
 from typing import Any
 
-from ._arguments import path_of, write_to
+from ._arguments import path_to_write
 from ._errors import ArgumentError
 
 
@@ -50,8 +50,9 @@ def show(result: Any, path: str | os.PathLike[str] | None = None) -> Any:
     """
     write = _writer(result, "_write_page")
     if path is not None:
-        write_to(path, write)
-        return Path(path_of(path))
+        to = path_to_write(path)
+        write(to)
+        return Path(to)
     with tempfile.TemporaryDirectory() as folder:
         inside = Path(folder) / "page.html"
         if _in_notebook():

@@ -9,7 +9,7 @@ from typing import Any, ParamSpec, Protocol, TypeVar, cast, overload
 import numpy as np
 
 from . import _core
-from ._arguments import name_of_method
+from ._arguments import name_of_method, path_to_write
 from ._arrays import Array, Floats, as_array, floats
 from ._errors import ArgumentError, InputError, UnsupportedError
 from ._foreign import as_surface
@@ -103,7 +103,7 @@ class Field(Reported, Shown):
 
         Raises UnsupportedError for other extensions, IoError where it cannot be written.
         """
-        self._save(path)
+        self._handle.write(path_to_write(path))
 
     def _parts(self) -> tuple[Any, ...]:
         return "surface", self.mesh, {"distance": self.values}, {}

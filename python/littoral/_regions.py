@@ -6,7 +6,7 @@ import os
 from typing import Any
 
 from . import _core
-from ._arguments import name_of_method
+from ._arguments import name_of_method, path_to_write
 from ._arrays import Array, Floats, Ints
 from ._errors import InputError
 from ._foreign import as_surface
@@ -62,7 +62,7 @@ class Regions(Reported, Shown):
 
         Raises UnsupportedError for other extensions, IoError where it cannot be written.
         """
-        self._save(path)
+        self._handle.write(path_to_write(path))
 
     def _parts(self) -> tuple[Any, ...]:
         return "surface", self.mesh, {}, {"winding": self.region}

@@ -9,7 +9,6 @@ from collections.abc import Callable
 from typing import Any, Concatenate, ParamSpec, Protocol, TypeVar, overload
 
 from . import _display
-from ._arguments import write_to
 from ._foreign import check_kind, handed_over
 from ._report import Report, ReportWarning
 
@@ -35,12 +34,6 @@ class Shown:
     """What has a page and a picture."""
 
     _handle: Any
-    # What is written besides the kind of files that the library names when it knows an extension
-    # of none.
-    _also_written = ".html .png"
-
-    def _save(self, path: str | os.PathLike[str]) -> None:
-        write_to(path, self._handle.write, also=self._also_written)
 
     def show(self, path: str | os.PathLike[str] | None = None) -> Any:
         """The page to turn it in: in a notebook, or opened in the browser (`littoral.show`)."""

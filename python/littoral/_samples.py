@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from ._arguments import name_of_method, number, text, truth, whole, write_to
+from ._arguments import name_of_method, number, path_to_write, text, truth, whole
 from ._arrays import Floats, Ints, as_array, floats
 from ._errors import InputError
 from ._foreign import as_cloud_or_surface
@@ -93,7 +93,8 @@ class Samples(Reported):
 
     def save(self, path: str | os.PathLike[str], name: str = "") -> None:
         """Writes .npz, .zarr or .tar, and the card as .json; UnsupportedError, IoError."""
-        write_to(path, self._made.core().write, text(name, "name"))
+        to = path_to_write(path)
+        self._made.core().write(to, text(name, "name"))
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "surface": self.surface}  # also where nobody has asked for it

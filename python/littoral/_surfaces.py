@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from . import _core
-from ._arguments import number, write_to
+from ._arguments import number, path_to_write
 from ._arrays import (
     Array,
     Floats,
@@ -159,7 +159,7 @@ class Surface:
 
         Raises UnsupportedError for other extensions, IoError where it cannot be written.
         """
-        write_to(path, self._handle.write)
+        self._handle.write(path_to_write(path))
 
     def _parts(self) -> tuple[Any, ...]:
         return "surface", self, {}, {}

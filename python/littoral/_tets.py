@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from . import _core, _display
-from ._arguments import name_of_method, number, number_or_none, truth
+from ._arguments import name_of_method, number, number_or_none, path_to_write, truth
 from ._arrays import (
     Array,
     Floats,
@@ -160,8 +160,6 @@ class TetField(Reported, Shown):
     <littoral.TetField: 4 vertices, by auto, converged>
     """
 
-    _also_written = ".obj .ply .glb .vtp .csv .tsv .npy .npz .txt .html .png"
-
     def __init__(self, core: _core.TetField, mesh: TetMesh) -> None:
         self._handle = core
         self.mesh = mesh
@@ -177,7 +175,7 @@ class TetField(Reported, Shown):
         """Writes by extension: .vtk .vtu the tets, .ply .obj .glb .vtp their boundary, .csv .tsv
         .npy .npz .txt values, .html .png as `show`; UnsupportedError for others, IoError.
         """
-        self._save(path)
+        self._handle.write(path_to_write(path))
 
     def show(
         self,

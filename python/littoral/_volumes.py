@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arguments import number, number_or_none, truth, whole
+from ._arguments import number, number_or_none, path_to_write, truth, whole
 from ._arrays import Floats, as_array, contiguous, floats
 from ._errors import InputError
 from ._results import Shown, method_takes_kind
@@ -129,7 +129,7 @@ class Volume(Shown):
 
         Raises UnsupportedError for others, IoError.
         """
-        self._save(path)
+        self._handle.write(path_to_write(path))
 
     def _parts(self) -> tuple[Any, ...]:
         return "grid", self.values, self.spacing, self.origin

@@ -9,6 +9,12 @@
 
 namespace littoral {
 
+/// Products of vectors in the plane.
+namespace plane {
+inline double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
+inline double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }
+}  // namespace plane
+
 /// Side k runs from corner k to corner k+1. Laid out in the plane with corner 0 at the origin and
 /// corner 1 on the positive real axis; `mirrored` puts corner 2 below the axis instead of above.
 struct TriangleShape {

@@ -87,6 +87,9 @@ def test_what_cannot_be_shown_says_why(run: Run, tmp_path: Path) -> None:
     (tmp_path / "nan.ply").write_text(nan)
     failed = run("render", "nan.ply", "-o", "a.png", status=2)
     assert "nan.ply: " in failed.stderr and "[not-finite]" in failed.stderr
+    (tmp_path / "mesh.obj").write_text(square(4))
+    failed = run("view", "mesh.obj", "nan.ply", "-o", "both.html", status=2)
+    assert "nan.ply: scene" in failed.stderr and "mesh.obj" not in failed.stderr
 
 
 def test_tets_are_cut_open_where_their_boundary_has_one_sign(run: Run, tmp_path: Path) -> None:

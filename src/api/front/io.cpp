@@ -20,8 +20,13 @@ namespace littoral {
 
 namespace {
 
-bool is_shown(const std::filesystem::path& path) {
-  return io::is_written_as(path, {io::Kind::page, io::Kind::picture});
+/// Is it written as a page or picture? Throws UnsupportedError, naming all that is written, where
+/// it is none of these kinds either.
+bool is_shown(const std::filesystem::path& path, io::Kinds kinds) {
+  const io::Kinds shown{io::Kind::page, io::Kind::picture};
+  kinds.insert(kinds.end(), shown.begin(), shown.end());
+  io::format_to_write(path, kinds);
+  return io::is_written_as(path, shown);
 }
 
 /// A soup over the vertices of the mesh with the values there.
@@ -87,14 +92,14 @@ Volume read_volume(const std::filesystem::path& path) { return io::read_volume(p
 TetMesh read_tets(const std::filesystem::path& path) { return io::read_tets(path).mesh; }
 
 void write(const Field& field, const std::filesystem::path& path) {
-  if (is_shown(path)) return io::write_scene(path, scene_of(field));
+  if (is_shown(path, {io::Kind::field})) return io::write_scene(path, scene_of(field));
   // Tables are of the mesh's own vertices; clouds go without the triangles that show them.
   const bool of_mesh = field.mesh.n_faces() == 0 || io::is_written_as(path, {io::Kind::table});
   io::write_field(path, of_mesh ? with_values(field.mesh.soup(), field) : surface_of(field));
 }
 
 void write(const Regions& regions, const std::filesystem::path& path) {
-  if (is_shown(path)) return io::write_scene(path, scene_of(regions));
+  if (is_shown(path, {io::Kind::field})) return io::write_scene(path, scene_of(regions));
   if (io::is_written_as(path, {io::Kind::table}))
     return io::write_table(path, {{"region"}, regions.region.cast<double>(), "face"});
   if (io::has_extension(path, ".obj"))
@@ -109,11 +114,13 @@ void write(const PolygonSoup& soup, const std::filesystem::path& path) {
   io::write_surface(path, soup);
 }
 void write(const Volume& volume, const std::filesystem::path& path) {
-  if (is_shown(path)) return io::write_scene(path, io::make_volume_scene(volume));
+  if (is_shown(path, {io::Kind::volume}))
+    return io::write_scene(path, io::make_volume_scene(volume));
   io::write_volume(path, volume);
 }
 void write(const TetField& field, const std::filesystem::path& path) {
-  if (is_shown(path)) return io::write_scene(path, scene_of(field, {}));
+  if (is_shown(path, {io::Kind::tets, io::Kind::field}))
+    return io::write_scene(path, scene_of(field, {}));
   write_tet_values(path, {field.mesh, {}, {{"distance", field.values}}});
 }
 

@@ -230,7 +230,7 @@ io::Scene scene_of(PolygonSoup soup, const ShowArguments& arguments, Session& se
   return scene;
 }
 
-/// The boundary, which --slice cuts open; open in any case where nothing is seen on it.
+/// The boundary, which --slice and --axis cut open; open in any case where it hides what is inside.
 io::Scene scene_of(const io::TetFile& file, ShowArguments& arguments, Session& session) {
   const VolumeViewArguments& view = arguments.volume;
   arguments.volume_shown = true;
@@ -271,12 +271,14 @@ io::Scene read_scene(ShowArguments& arguments, bool for_page, Session& session) 
   io::describe(scene, title_of(arguments.in), session.report);
   set_style(scene, arguments);
   keep_upright(scene, arguments.in);
+  naming(arguments.in, [&] { io::check_scene(scene); });
   if (!arguments.beside.empty()) {
     ShowArguments other = arguments;
     other.in = std::exchange(other.beside, "");
     io::Scene second = read_scene_of(other, for_page, session);
     second.title = title_of(other.in);
     set_style(second, other);
+    naming(other.in, [&] { io::check_scene(second); });
     arguments.volume_shown |= other.volume_shown;
     scene.beside = std::make_shared<const io::Scene>(std::move(second));
   }
@@ -285,7 +287,6 @@ io::Scene read_scene(ShowArguments& arguments, bool for_page, Session& session) 
     throw InputError("option " + option + " is of volumes, tets and traced surfaces; " +
                          arguments.in + " is a surface or a cloud",
                      "options-conflict");
-  naming(arguments.in, [&] { io::check_scene(scene); });
   session.reading = false;
   session.task().checkpoint();
   return scene;

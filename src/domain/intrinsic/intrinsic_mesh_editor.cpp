@@ -14,14 +14,12 @@ bool is_collinear(double a, double b, double c) {
   return !(a + b + c - 2 * longest > collinear_margin * longest);
 }
 
-double cross(Complex a, Complex b) { return (std::conj(a) * b).imag(); }
-
 /// Barycentric coordinates, forced into the triangle.
 std::array<double, 3> barycentrics(Complex x, const std::array<Complex, 3>& p) {
   std::array<double, 3> b;
   double sum = 0;
   for (int k = 0; k < 3; ++k) {
-    b[k] = std::max(0.0, cross(p[(k + 2) % 3] - p[(k + 1) % 3], x - p[(k + 1) % 3]));
+    b[k] = std::max(0.0, plane::cross(p[(k + 2) % 3] - p[(k + 1) % 3], x - p[(k + 1) % 3]));
     sum += b[k];
   }
   for (double& v : b) v /= sum;
@@ -106,7 +104,7 @@ void IntrinsicMeshEditor::place(const Drawing& drawing, int edge, int left, cons
                    faces[left].v.begin();
   const Complex P = at_left[tail], Q = at_left[(tail + 1) % 3], PQ = Q - P;
   auto side = [&](Complex x) {
-    const double s = cross(PQ, x - P) / std::norm(PQ);
+    const double s = plane::cross(PQ, x - P) / std::norm(PQ);
     return std::abs(s) <= 1e-13 ? 0.0 : s;
   };
   auto on_edge = [&](Complex x) {
@@ -135,7 +133,7 @@ void IntrinsicMeshEditor::place(const Drawing& drawing, int edge, int left, cons
                  : std::find(list.begin(), list.end(), p.element) != list.end();
     };
     const bool l = holds(left), r = holds(right);
-    const double s = std::max(std::abs(cross(PQ, x - P)) / std::norm(PQ), 1e-300);
+    const double s = std::max(std::abs(plane::cross(PQ, x - P)) / std::norm(PQ), 1e-300);
     return l == r ? 0.0 : l ? s : -s;
   };
   for (const auto& [segment, a, b] : drawing.strokes) {
@@ -184,7 +182,7 @@ bool IntrinsicMeshEditor::flip(int e) {
   const Complex A = 0, B = ab, C = triangle_shape(ab, bc, ca, false).p[2],
                 D = triangle_shape(ab, db, ad, true).p[2];
   const double cd = std::abs(C - D);
-  if (!(cross(C - D, A - D) > 0) || !(cross(C - D, B - D) < 0)) return false;
+  if (!(plane::cross(C - D, A - D) > 0) || !(plane::cross(C - D, B - D) < 0)) return false;
   if (is_collinear(ca, ad, cd) || is_collinear(db, bc, cd)) return false;
 
   Corners at_f, at_g;

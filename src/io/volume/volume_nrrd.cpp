@@ -63,6 +63,7 @@ class NrrdReader {
                                "unsupported-file");
     }
   }
+
   // Words between blanks.
   class Words {
    public:

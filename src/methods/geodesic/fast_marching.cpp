@@ -95,7 +95,7 @@ class MarchingFront {
       const TriangleShape t = T.shape(where.face);
       for (int k = 0; k < 3; ++k)
         offer(T.faces(where.face, k),
-              value(points.inside_source[i]) + std::abs(t.p[k] - point(t, where.b)), 0);
+              value(points.inside_source[i]) + std::abs(t.p[k] - t.at(where.b)), 0);
     }
     for (std::size_t i = 0; i < sides_.size(); ++i)
       if (sides_[i] >= 0)
@@ -135,10 +135,6 @@ class MarchingFront {
   }
 
  private:
-  static Complex point(const TriangleShape& t, const std::array<double, 3>& b) {
-    return b[0] * t.p[0] + b[1] * t.p[1] + b[2] * t.p[2];
-  }
-
   void march(const Task& task) {
     while (!queue_.empty()) {
       const int v = queue_.take();
@@ -162,7 +158,7 @@ class MarchingFront {
   /// Corners of a triangle that holds a straight piece of a curve: exact in the triangle's plane.
   void add_segment(const TriangleSources::Segment& s, bool sided, double value) {
     const TriangleShape t = T_.shape(s.triangle);
-    const Complex a = point(t, s.a), ab = point(t, s.b) - a;
+    const Complex a = t.at(s.a), ab = t.at(s.b) - a;
     const double length2 = std::norm(ab);
     if (!(length2 > 0)) return;
     for (int k = 0; k < 3; ++k) {

@@ -10,16 +10,11 @@
 #include "base/groups.h"
 #include "base/index.h"
 #include "base/task.h"
+#include "base/triangle.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
 #include "domain/mesh/edge_sides.h"
 
 namespace littoral {
-
-/// Products of vectors in the plane.
-namespace plane {
-inline double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
-inline double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }
-}  // namespace plane
 
 /// How a front reaches a vertex from an edge: scalar products of the vectors from the vertex to the
 /// end that is fixed last, and to the other one.

@@ -11,8 +11,6 @@ namespace littoral {
 
 namespace {
 
-double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }
-
 /// Goes round one node from a corner, adding up jumps; false if they contradict each other.
 bool walk_round(const JumpCalculus& J, const VecX& jump, int face, int corner, MatX3& offset,
                 std::vector<char>& seen) {
@@ -131,7 +129,7 @@ CornerFunction solve_jump_laplace(const JumpCalculus& J, const VecX& jump, const
       // Without its open corner a face is no longer positive by itself: its last side must be.
       const bool alone = u.open[J.node(f, (k + 2) % 3)];
       const double w = alone ? std::max(J.weight(f, k), 1e-3) : J.weight(f, k),
-                   along = field.size() ? dot(field[f], J.side[f][k]) : 0,
+                   along = field.size() ? plane::dot(field[f], J.side[f][k]) : 0,
                    c = w * (u.u(f, l) - u.u(f, k) - along);
       entries.emplace_back(i, i, w);
       entries.emplace_back(j, j, w);

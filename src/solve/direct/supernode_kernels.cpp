@@ -265,7 +265,7 @@ bool factor_by_columns(int n, int rows, Scalar* A, int lda) {
 }
 
 constexpr int few = 4;     // right-hand sides that pass one by one
-constexpr int panel = 24;  // columns that one right-hand side passes at once, and many
+constexpr int panel = 24;  // columns that right-hand sides pass at once
 static_assert(small_supernode <= panel);
 
 template <class Scalar>
@@ -335,8 +335,8 @@ void forward(int n, int height, int k, const Scalar* block, Scalar* x, int ldx, 
     subtract_product<Scalar>(n - j - w, k, w, {D + w, 1, height}, {x + j, 1, ldx}, x + j + w, ldx);
   }
   const int below = height - n;
-  for (int c = 0; c < k; ++c) std::fill_n(y + index(c) * ldy, below, Scalar(0));
-  subtract_product<Scalar>(below, k, n, {block + n, 1, height}, {x, 1, ldx}, y, ldy);
+  subtract_product<Scalar>(below, k, n, {block + n, 1, height}, {x, 1, ldx}, y, ldy,
+                           {.from_zero = true});
   for (int c = 0; c < k; ++c)
     for (int i = 0; i < below; ++i) y[i + index(c) * ldy] = -y[i + index(c) * ldy];
 }

@@ -221,7 +221,7 @@ def test_shards_are_a_partition(scans: Path) -> None:
 
 def test_time_limit_and_retry(scans: Path) -> None:
     (scans / "large.obj").write_text(square(300))
-    (scans / "list.txt").write_text("large.obj --method exact\nin/a/x.obj\n")
+    (scans / "list.txt").write_text("large.obj --method quadratic\nin/a/x.obj\n")
     limits = ("--time-limit", "0.3", "--retry", "1", "--verb", "distance", "--vertex", "0")
     begin = time.monotonic()
     assert batch(scans, "list.txt", *limits, "-o", "out").returncode == 1

@@ -19,7 +19,7 @@ jobs="${JOBS:-$(nproc)}"
 venv="$PWD/build/venv/bin"
 logs="$PWD/build/test-logs"
 check_stages=(files format tools docs quick package pages)
-test_stages=(files format tools docs release cli install wheel pages sanitize threads fuzz viewer web)
+test_stages=(files format tools docs release cli install wheel pages sanitize threads fuzz web viewer)
 long_stages=(slow sanitize_slow sanitize_package clusters soak fuzz_long mutate firefox studies single aarch64)
 all_stages=("${test_stages[@]}" quick package "${long_stages[@]}")
 
@@ -33,7 +33,7 @@ build() {  # preset, further arguments of cmake --build
   shift
   (
     flock 9 && cmake --preset "$preset" ${compilers[@]+"${compilers[@]}"} >/dev/null &&
-      cmake --build "build/$preset" -j "$jobs" "$@"
+      nice -n 3 cmake --build "build/$preset" -j "$jobs" "$@"  # tests that run beside go first
   ) 9>"build/$preset.lock"
 }
 compilers=()
@@ -246,21 +246,22 @@ run_stage() {  # its output goes to its log, too; how it ended, and its times by
     $((SECONDS - start)) "$(awk -F '[ms ]+' 'END { print int($1 * 60 + $2 + $3 * 60 + $4) }' "$logs/$stage.times")" \
     >"$logs/$stage.result"
 }
-# Two lanes: what waits for one core most of the time runs beside what keeps all of them busy. Both may
-# use build/release, but only the first lane while it builds it, which is the first thing it does. When
-# the first lane has no more, it takes of the second's what only reads there.
-busy=() beside=() other=()
+# Three lanes: what waits for one core most of the time, and the build for browsers, run beside what
+# keeps all cores busy. All may use build/release, but only the first lane while it builds it, which is
+# the first thing it does. When the first lane has no more, it takes of the others what only reads there.
+busy=() beside=() browsers=() other=()
 for stage in "${stages[@]}"; do
   case "$stage" in
     release | quick | sanitize | threads | fuzz) busy+=("$stage") ;;
-    files | format | tools | docs | cli | install | package | wheel | pages | viewer | web) beside+=("$stage") ;;
+    files | format | tools | docs | cli | install | package | wheel | pages) beside+=("$stage") ;;
+    web | viewer) browsers+=("$stage") ;;
     *) other+=("$stage") ;;
   esac
 done
 take() { mkdir "$logs/$1.taken" 2>/dev/null; }  # by the lane that comes first
 run_beside() {
   local stage before
-  for stage in "${beside[@]}"; do
+  for stage in "$@"; do
     take "$stage" || continue
     case "$stage" in
       files | format | tools | docs) ;;
@@ -269,15 +270,16 @@ run_beside() {
          done ;;
     esac
     run_stage "$stage" >/dev/null
-    echo "==== $stage, run beside"
-    cat "$logs/$stage.log"
-    echo "==== end of $stage"
+    flock "$logs" sh -c 'echo "==== $1, run beside" && cat "$2" && echo "==== end of $1"' _ \
+      "$stage" "$logs/$stage.log"
   done
 }
-if [ ${#busy[@]} -gt 0 ] && [ ${#beside[@]} -gt 0 ] && [ ${#other[@]} = 0 ] && [ "$jobs" -gt 1 ]; then
+n_beside=$((${#beside[@]} + ${#browsers[@]}))
+if [ ${#busy[@]} -gt 0 ] && [ $n_beside -gt 0 ] && [ ${#other[@]} = 0 ] && [ "$jobs" -gt 1 ]; then
   trap 'trap - INT; kill 0' INT  # jobs in the background would go on
-  run_beside &
-  in_turn=("${busy[@]}") after=(web cli)
+  run_beside ${beside[@]+"${beside[@]}"} &
+  run_beside ${browsers[@]+"${browsers[@]}"} &
+  in_turn=("${busy[@]}") after=(viewer cli)
   [[ " ${stages[*]} " == *" wheel "* ]] || after+=(pages)  # it links the package again
 else
   in_turn=("${stages[@]}") after=()
@@ -288,7 +290,7 @@ run_aloud() {
 }
 for stage in "${in_turn[@]}"; do run_aloud "$stage"; done
 for stage in ${after[@]+"${after[@]}"}; do
-  if [[ " ${beside[*]} " == *" $stage "* ]] && take "$stage"; then run_aloud "$stage"; fi
+  if [[ " ${beside[*]} ${browsers[*]} " == *" $stage "* ]] && take "$stage"; then run_aloud "$stage"; fi
 done
 wait
 results=("${stages[@]/#/$logs/}")

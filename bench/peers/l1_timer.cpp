@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
     double start = cpu_seconds();
     const L1Solution ours = integrate_l1(in.problem, {}, {}, report);
     const double seconds = cpu_seconds() - start;
-    std::printf("| %d | %.2f | %.1e | %.0fx |", in.problem.n, seconds, std::abs(ours.gap()),
+    std::printf("| %d | %.3f | %.1e | %.0fx |", in.problem.n, seconds, std::abs(ours.gap()),
                 seconds / in.poisson_seconds);
     if (faces > 0) {
       start = cpu_seconds();

@@ -15,12 +15,9 @@ namespace littoral {
 
 namespace {
 
-/// One column of the flow problem: flow x from f to g at a price per unit, -u <= x <= u, or, for
-/// the multiplier of a bound, x >= 0.
+/// One column of the flow problem: flow x from f to g.
 struct Column {
   int f, g;
-  double price;
-  double u;  // 0: only x >= 0
 };
 
 class Method {
@@ -28,18 +25,28 @@ class Method {
   explicit Method(const L1Integration& problem) : problem_(problem) {
     unit_c_ = std::max(problem.c.cwiseAbs().maxCoeff(), 1e-300);
     unit_w_ = std::max(problem.w.maxCoeff(), 1e-300);
+    std::vector<double> price, most;
+    const auto add = [&](Eigen::Index e, int kind, Column column, double p, double u) {
+      columns_.push_back(column);
+      arc_.push_back(e);
+      kind_.push_back(kind);
+      price.push_back(p / unit_c_);
+      most.push_back(u / unit_w_);
+    };
     for (Eigen::Index e = 0; e < problem.n_arcs(); ++e)
-      if (problem.w[e] > 0)
-        add(e, 0, {problem.f[e], problem.g[e], -problem.c[e] / unit_c_, problem.w[e] / unit_w_});
+      if (problem.w[e] > 0) add(e, 0, {problem.f[e], problem.g[e]}, -problem.c[e], problem.w[e]);
+    m2_ = index(columns_.size());
     for (Eigen::Index e = 0; e < problem.lo.size(); ++e) {
       const double c = problem.c[e];
       if (std::isfinite(problem.hi[e]))
-        add(e, 1, {problem.f[e], problem.g[e], (problem.hi[e] - c) / unit_c_, 0});
+        add(e, 1, {problem.f[e], problem.g[e]}, problem.hi[e] - c, 0);
       if (std::isfinite(problem.lo[e]))
-        add(e, -1, {problem.g[e], problem.f[e], (c - problem.lo[e]) / unit_c_, 0});
+        add(e, -1, {problem.g[e], problem.f[e]}, c - problem.lo[e], 0);
     }
-    make_laplacian();
     m_ = index(columns_.size());
+    price_ = Eigen::Map<const Row>(price.data(), m_);
+    u_ = Eigen::Map<const Row>(most.data(), m_);
+    make_laplacian();
   }
 
   InteriorPoint run(double tolerance, const Task& task) {
@@ -65,14 +72,13 @@ class Method {
   }
 
  private:
-  void add(Eigen::Index e, int kind, const Column& column) {
-    columns_.push_back(column);
-    arc_.push_back(e);
-    kind_.push_back(kind);
-  }
-  bool symmetric(Eigen::Index k) const { return columns_[k].u > 0; }
-  double difference(const VecX& s, Eigen::Index k) const {
-    return s[columns_[k].f] - s[columns_[k].g];
+  using Row = Eigen::ArrayXd;  // columns; of z and steps above, those with a flow of both signs
+
+  /// s_f - s_g of all columns.
+  Row differences(const VecX& s) const {
+    Row out(m_);
+    for (Eigen::Index k = 0; k < m_; ++k) out[k] = s[columns_[k].f] - s[columns_[k].g];
+    return out;
   }
 
   /// Pattern and positions of A Theta^-1 A^T, one node of every part fixed.
@@ -109,7 +115,7 @@ class Method {
     const int* diagonal = K->outerIndexPtr();  // the first entry of a lower triangle's column
     for (Eigen::Index k = 0; k < m_; ++k) {
       const Column& column = columns_[k];
-      const double weight = 1 / theta_[k];
+      const double weight = inverse_theta_[k];
       value[diagonal[column.f]] += weight;
       value[diagonal[column.g]] += weight;
       if (!held_[column.f] && !held_[column.g]) value[place_[k]] -= weight;
@@ -128,7 +134,7 @@ class Method {
   }
 
   /// A q: what the columns' flow brings out of every node that is not fixed.
-  VecX out_of_nodes(const VecX& q) const {
+  VecX out_of_nodes(const Row& q) const {
     VecX out = VecX::Zero(problem_.n);
     for (Eigen::Index k = 0; k < m_; ++k) {
       out[columns_[k].f] += q[k];
@@ -141,122 +147,75 @@ class Method {
 
   /// x = 0, and s from least squares.
   void start(const Task& task) {
-    theta_.resize(m_);
-    VecX q(m_);
-    for (Eigen::Index k = 0; k < m_; ++k) {
-      theta_[k] = symmetric(k) ? 1 / columns_[k].u : 1e8;
-      q[k] = symmetric(k) ? columns_[k].price * columns_[k].u : 0;
-    }
-    s_ = factor(task) ? VecX(factor_->solve(out_of_nodes(q))) : VecX::Zero(problem_.n);
-    double typical = 0;
-    Eigen::Index count = 0;
-    for (Eigen::Index k = 0; k < m_; ++k)
-      if (symmetric(k)) {
-        typical += std::abs(difference(s_, k) - columns_[k].price);
-        ++count;
-      }
-    const double margin = std::max(typical / std::max<Eigen::Index>(count, 1), 1e-6);
-    x_ = VecX::Zero(m_);
-    zl_ = zu_ = VecX::Zero(m_);
-    for (Eigen::Index k = 0; k < m_; ++k) {
-      const double J = difference(s_, k) - columns_[k].price;
-      if (symmetric(k)) {
-        zu_[k] = std::max(J, 0.0) + margin;
-        zl_[k] = std::max(-J, 0.0) + margin;
-      } else {
-        zl_[k] = std::max(-J, margin);
-        x_[k] = 0.1;
-      }
-    }
+    inverse_theta_ = Row::Constant(m_, 1e-8);
+    inverse_theta_.head(m2_) = u_.head(m2_);
+    s_ = factor(task) ? VecX(factor_->solve(out_of_nodes(price_ * u_))) : VecX::Zero(problem_.n);
+    const Row J = differences(s_) - price_;
+    const double margin = std::max(J.head(m2_).abs().mean(), 1e-6);
+    x_ = Row::Zero(m_);
+    x_.tail(m_ - m2_) = 0.1;
+    zu_ = J.head(m2_).max(0.0) + margin;
+    zl_ = (-J).max(margin);
+    zl_.head(m2_) = (-J.head(m2_)).max(0.0) + margin;
   }
-
-  double room_below(Eigen::Index k) const { return x_[k] + columns_[k].u; }
-  double room_above(Eigen::Index k) const { return columns_[k].u - x_[k]; }
 
   /// Objectives, duality measure and residuals of the current point.
   void measure() {
-    residual_.resize(m_);
-    double products = 0, primal = 0, dual = 0;
-    Eigen::Index count = 0;
-    dual_error_ = 0;
-    for (Eigen::Index k = 0; k < m_; ++k) {
-      const double J = difference(s_, k) - columns_[k].price;
-      residual_[k] = J + zl_[k] - zu_[k];
-      dual_error_ = std::max(dual_error_, std::abs(residual_[k]));
-      dual -= columns_[k].price * x_[k];
-      products += room_below(k) * zl_[k];
-      theta_[k] = zl_[k] / room_below(k);
-      ++count;
-      if (!symmetric(k)) continue;
-      products += room_above(k) * zu_[k];
-      theta_[k] += zu_[k] / room_above(k);
-      ++count;
-      primal += columns_[k].u * std::abs(J);
-    }
-    mu_ = products / static_cast<double>(count);
+    const Row J = differences(s_) - price_;
+    residual_ = J + zl_;
+    residual_.head(m2_) -= zu_;
+    dual_error_ = residual_.abs().maxCoeff();
+    below_ = x_ + u_;
+    above_ = (u_ - x_).head(m2_);
+    inverse_below_ = 1 / below_;
+    inverse_above_ = 1 / above_;
+    inverse_theta_ = zl_ * inverse_below_;
+    inverse_theta_.head(m2_) += zu_ * inverse_above_;
+    inverse_theta_ = 1 / inverse_theta_;
+    mu_ = ((below_ * zl_).sum() + (above_ * zu_).sum()) / double(m_ + m2_);
+    const double primal = (u_ * J.abs()).sum(), dual = -(price_ * x_).sum();
     gap_ = (primal - dual) / std::max(primal, 1e-300);
     unbalanced_ = -out_of_nodes(x_);
   }
 
   struct Direction {
-    VecX s, x, zl, zu;
+    VecX s;
+    Row x, zl, zu;
   };
 
   /// Newton's direction for complementarity residuals rl (below) and ru (above).
-  Direction newton(const VecX& rl, const VecX& ru) const {
-    VecX q(m_);
-    for (Eigen::Index k = 0; k < m_; ++k) {
-      const double above = symmetric(k) ? ru[k] / room_above(k) : 0;
-      q[k] = -(residual_[k] + rl[k] / room_below(k) - above) / theta_[k];
-    }
-    Direction d{factor_->solve(VecX(out_of_nodes(q) + unbalanced_)), VecX(m_), VecX(m_),
-                VecX::Zero(m_)};
-    for (Eigen::Index k = 0; k < m_; ++k) {
-      d.x[k] = difference(d.s, k) / theta_[k] - q[k];
-      d.zl[k] = (rl[k] - zl_[k] * d.x[k]) / room_below(k);
-      if (symmetric(k)) d.zu[k] = (ru[k] + zu_[k] * d.x[k]) / room_above(k);
-    }
+  Direction newton(const Row& rl, const Row& ru) const {
+    Row q = residual_ + rl * inverse_below_;
+    q.head(m2_) -= ru * inverse_above_;
+    q *= -inverse_theta_;
+    Direction d;
+    d.s = factor_->solve(VecX(out_of_nodes(q) + unbalanced_));
+    d.x = differences(d.s) * inverse_theta_ - q;
+    d.zl = (rl - zl_ * d.x) * inverse_below_;
+    d.zu = (ru + zu_ * d.x.head(m2_)) * inverse_above_;
     return d;
   }
 
-  /// Longest steps for x and for (s, z) that keep everything nonnegative.
+  /// Longest steps for x and for (s, z), at most 1, that keep everything nonnegative.
   std::pair<double, double> longest(const Direction& d) const {
-    double x = 1, z = 1;
-    for (Eigen::Index k = 0; k < m_; ++k) {
-      if (d.x[k] < 0) x = std::min(x, -room_below(k) / d.x[k]);
-      if (d.zl[k] < 0) z = std::min(z, -zl_[k] / d.zl[k]);
-      if (!symmetric(k)) continue;
-      if (d.x[k] > 0) x = std::min(x, room_above(k) / d.x[k]);
-      if (d.zu[k] < 0) z = std::min(z, -zu_[k] / d.zu[k]);
-    }
-    return {x, z};
+    const double x =
+        std::max((-d.x * inverse_below_).maxCoeff(), (d.x.head(m2_) * inverse_above_).maxCoeff());
+    const double z = std::max((-d.zl / zl_).maxCoeff(), (-d.zu / zu_).maxCoeff());
+    return {1 / std::max(x, 1.0), 1 / std::max(z, 1.0)};
   }
 
   void step() {
-    VecX rl(m_), ru = VecX::Zero(m_);
-    for (Eigen::Index k = 0; k < m_; ++k) {
-      rl[k] = -room_below(k) * zl_[k];
-      if (symmetric(k)) ru[k] = -room_above(k) * zu_[k];
-    }
+    Row rl = -below_ * zl_, ru = -above_ * zu_;
     const Direction predictor = newton(rl, ru);
     const auto [ax, az] = longest(predictor);
-    double products = 0;
-    Eigen::Index count = 0;
-    for (Eigen::Index k = 0; k < m_; ++k) {
-      const double dx = ax * predictor.x[k];
-      products += (room_below(k) + dx) * (zl_[k] + az * predictor.zl[k]);
-      ++count;
-      if (!symmetric(k)) continue;
-      products += (room_above(k) - dx) * (zu_[k] + az * predictor.zu[k]);
-      ++count;
-    }
-    const double target = mu_ * std::pow(products / static_cast<double>(count) / mu_, 3);
-    for (Eigen::Index k = 0; k < m_; ++k) {
-      rl[k] += target - predictor.x[k] * predictor.zl[k];
-      if (symmetric(k)) ru[k] += target + predictor.x[k] * predictor.zu[k];
-    }
+    const double products =
+        ((below_ + ax * predictor.x) * (zl_ + az * predictor.zl)).sum() +
+        ((above_ - ax * predictor.x.head(m2_)) * (zu_ + az * predictor.zu)).sum();
+    const double target = mu_ * std::pow(products / double(m_ + m2_) / mu_, 3);
+    rl += target - predictor.x * predictor.zl;
+    ru += target + predictor.x.head(m2_) * predictor.zu;
     const Direction d = newton(rl, ru);
-    auto [x, z] = longest(d);
+    const auto [x, z] = longest(d);
     const double back = std::clamp(1 - mu_, 0.9, 0.9995);
     x_ += back * x * d.x;
     s_ += back * z * d.s;
@@ -270,13 +229,15 @@ class Method {
   std::vector<Column> columns_;
   std::vector<Eigen::Index> arc_;  // of each column
   std::vector<int> kind_;          // 0: |J|, 1: hi, -1: lo
-  Eigen::Index m_ = 0;
+  Eigen::Index m_ = 0, m2_ = 0;    // columns; the first of them, some: -u <= x <= u
+  Row price_, u_;                  // per unit of flow; 0: only x >= 0, the multiplier of a bound
   std::vector<char> held_;
   SpMat laplacian_;
   std::shared_ptr<const Elimination> structure_;
   std::vector<Eigen::Index> place_;
   std::unique_ptr<Cholesky<double>> factor_;
-  VecX s_, x_, zl_, zu_, theta_, residual_, unbalanced_;
+  VecX s_, unbalanced_;
+  Row x_, zl_, zu_, residual_, below_, above_, inverse_below_, inverse_above_, inverse_theta_;
   double mu_ = 0, gap_ = 1, dual_error_ = 0;
 };
 

@@ -15,7 +15,9 @@ namespace littoral {
 
 namespace {
 
-constexpr int simplex_alone = 15000;  // nodes
+constexpr int simplex_alone = 8000;   // nodes
+constexpr double near_enough = 1e-5;  // gap at which the simplex takes over
+constexpr double at_bound = 0.03;     // room, as a share of all, that a flow has left at its bound
 
 void check(const L1Integration& p) {
   const std::size_t m = p.c.size();
@@ -117,20 +119,24 @@ Scaled scale(const L1Integration& p) {
   return out;
 }
 
-/// The simplex's start from a point inside: its flows, and a tree of the arcs farthest from their
-/// bounds.
+/// The simplex's start from a point inside: its flows, those near a bound at it, and a tree of the
+/// arcs farthest from their bounds. Arcs outside of the tree that only approach their bounds would
+/// each take a pivot.
 FlowStart start_from(const InteriorPoint& point, const L1Integration& p, const Scaled& scaled) {
   FlowStart start;
   const auto add = [&](double flow, double slack) {
     start.flow.push_back(std::llround(flow / scaled.flow_unit));
     start.key.push_back(slack);
   };
-  for (Eigen::Index e = 0; e < p.n_arcs(); ++e)
-    add(point.x[e], p.w[e] > 0 ? 1 - std::abs(point.x[e]) / p.w[e] : 0);
+  for (Eigen::Index e = 0; e < p.n_arcs(); ++e) {
+    const double slack = p.w[e] > 0 ? 1 - std::abs(point.x[e]) / p.w[e] : 0;
+    add(slack < at_bound ? std::copysign(p.w[e], point.x[e]) : point.x[e], slack);
+  }
   for (std::size_t k = 0; k < scaled.bound_arc.size(); ++k) {
     const Eigen::Index e = scaled.bound_arc[k];
     const double flow = scaled.bound_sign[k] > 0 ? point.up[e] : point.down[e];
-    add(flow, p.w[e] > 0 ? std::min(1.0, flow / p.w[e]) : 0);
+    const double slack = p.w[e] > 0 ? std::min(1.0, flow / p.w[e]) : 0;
+    add(slack < at_bound ? 0 : flow, slack);
   }
   return start;
 }
@@ -193,7 +199,7 @@ L1Solution integrate_l1(const L1Integration& problem, const L1Options& options, 
   const Scaled scaled = scale(p);
   FlowStart start;
   if (interior && p.n_arcs() > 0 && p.w.maxCoeff() > 0) {
-    const InteriorPoint point = interior_point(p, 1e-9, task.stage(0.7, "interior point"));
+    const InteriorPoint point = interior_point(p, near_enough, task.stage(0.7, "interior point"));
     solution.iterations = point.iterations;
     start = start_from(point, p, scaled);
   }

@@ -163,6 +163,16 @@ TEST(L1Integration, TheInteriorPointTakesFewSteps) {
   EXPECT_LE(steps, 204);  // 200 were seen
 }
 
+TEST(L1Integration, TheInteriorPointLeavesTheSimplexLittleToDo) {
+  // Flows that only approach their bounds would each take a pivot.
+  for (const bool bounded : {false, true})
+    for (const unsigned seed : {1u, 2u, 3u, 4u}) {
+      const L1Integration p = random_problem(32, seed, bounded);
+      EXPECT_LT(solve(p, L1Algorithm::interior_point).pivots, 20);  // 1 was seen
+      EXPECT_GT(solve(p, L1Algorithm::simplex).pivots, 1000);
+    }
+}
+
 TEST(L1Integration, BoundsHoldAndCost) {
   const L1Integration bounded = random_problem(12, 8, true);
   L1Integration free = bounded;

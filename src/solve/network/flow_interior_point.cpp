@@ -72,7 +72,7 @@ class Method {
   }
 
  private:
-  using Row = Eigen::ArrayXd;  // columns; of z and steps above, those with a flow of both signs
+  using Row = Eigen::ArrayXd;  // by column; of what is called u or above, the first m2_
 
   /// s_f - s_g of all columns.
   Row differences(const VecX& s) const {

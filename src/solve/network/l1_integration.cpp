@@ -124,19 +124,17 @@ Scaled scale(const L1Integration& p) {
 /// each take a pivot.
 FlowStart start_from(const InteriorPoint& point, const L1Integration& p, const Scaled& scaled) {
   FlowStart start;
-  const auto add = [&](double flow, double slack) {
-    start.flow.push_back(std::llround(flow / scaled.flow_unit));
+  const auto add = [&](double flow, double slack, double bound) {
+    start.flow.push_back(std::llround((slack < at_bound ? bound : flow) / scaled.flow_unit));
     start.key.push_back(slack);
   };
-  for (Eigen::Index e = 0; e < p.n_arcs(); ++e) {
-    const double slack = p.w[e] > 0 ? 1 - std::abs(point.x[e]) / p.w[e] : 0;
-    add(slack < at_bound ? std::copysign(p.w[e], point.x[e]) : point.x[e], slack);
-  }
+  for (Eigen::Index e = 0; e < p.n_arcs(); ++e)
+    add(point.x[e], p.w[e] > 0 ? 1 - std::abs(point.x[e]) / p.w[e] : 0,
+        std::copysign(p.w[e], point.x[e]));
   for (std::size_t k = 0; k < scaled.bound_arc.size(); ++k) {
     const Eigen::Index e = scaled.bound_arc[k];
     const double flow = scaled.bound_sign[k] > 0 ? point.up[e] : point.down[e];
-    const double slack = p.w[e] > 0 ? std::min(1.0, flow / p.w[e]) : 0;
-    add(slack < at_bound ? 0 : flow, slack);
+    add(flow, p.w[e] > 0 ? std::min(1.0, flow / p.w[e]) : 0, 0);
   }
   return start;
 }

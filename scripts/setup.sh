@@ -91,10 +91,12 @@ install_packages() {
     "${available[@]}" >/dev/null
 }
 
+makes_environments() { "$1" -c 'import ensurepip, venv' 2>/dev/null; }
+
 # build/venv holds the pinned tools; the stamp names the requirements and the Python it was made for.
 python_environment() {
   local python=python3 stamp
-  "$python" -c 'import ensurepip, venv' 2>/dev/null || python=/usr/bin/python3
+  makes_environments "$python" || python=/usr/bin/python3
   stamp="$("$python" --version) $(sha256sum <requirements-dev.txt)"
   [ "$(cat build/venv/stamp 2>/dev/null)" != "$stamp" ] || return 0
   echo "setup: Python environment in build/venv"
@@ -108,8 +110,13 @@ python_environment() {
 case "${1:-}" in
   build) install_packages "${build_packages[@]}" $(node_packages) ;;
   test)
+    environment=
+    if makes_environments python3; then  # pip beside apt: both wait for the network
+      python_environment &
+      environment=$!
+    fi
     install_packages "${build_packages[@]}" $(node_packages) "${test_packages[@]}" "${web_packages[@]}"
-    python_environment
+    if [ -n "$environment" ]; then wait "$environment"; else python_environment; fi
     ;;
   web) install_packages "${build_packages[@]}" $(node_packages) "${web_packages[@]}" ;;
   tidy) install_packages "${build_packages[@]}" clang-tidy-14 ;;

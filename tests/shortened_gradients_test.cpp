@@ -11,7 +11,7 @@
 namespace littoral {
 namespace {
 
-constexpr int n = 24;  // squares a side
+constexpr int side = 24;  // squares
 
 /// u = x on a unit square, and one node in the middle too high by a tenth of a side.
 struct Raised {
@@ -19,10 +19,10 @@ struct Raised {
   SpRows D;
   VecX x, u;
   MatX3 points;
-  int node = 12 * (n + 1) + 12;
+  int node = 12 * (side + 1) + 12;
 
   Raised() {
-    const SurfaceMesh mesh(test::grid_soup(n, n));
+    const SurfaceMesh mesh(test::grid_soup(side, side));
     Report report;
     const test::Problem p = test::problem(mesh, test::vertex_points({0}), report);
     points = mesh.points();
@@ -31,7 +31,7 @@ struct Raised {
     D = problem.divergence();
     x = points.col(0) / p.ops->unit;
     u = x;
-    u[node] += 0.1 / n / p.ops->unit;
+    u[node] += 0.1 / side / p.ops->unit;
   }
 
   std::optional<VecX> shortened(const VecX& from, const std::vector<char>& fixed) const {
@@ -56,7 +56,7 @@ TEST(ShortenedGradients, AreWithinTheLimitAndOnlyNeighboursMove) {
   const double step = raised.u[raised.node] - raised.x[raised.node];
   for (Eigen::Index v = 0; v < u->size(); ++v) {
     EXPECT_LE(std::abs((*u)[v] - raised.x[v]), step) << v;
-    const double away = (raised.points.row(v) - raised.points.row(raised.node)).norm() * n;
+    const double away = (raised.points.row(v) - raised.points.row(raised.node)).norm() * side;
     if (away > 9) {
       EXPECT_EQ((*u)[v], raised.u[v]) << v;
     }

@@ -21,11 +21,11 @@ namespace littoral {
 namespace {
 
 // Measured on damaged curves: docs/measurements/robustness.md, near the curves or everywhere.
-constexpr double most_faces = 1.0 / 3;  // of the mesh: with more, too little time is saved
-constexpr double beside_curves = 6;     // decay lengths of heat that a band reaches
-constexpr double around_ends = 1.75;    // gaps that it reaches there
-constexpr double well_inside = 1;       // of how far the zero set goes: what is left beyond it
-constexpr double widest = 64;           // times as wide as at first; most_faces stops it before
+constexpr double largest_band = 1.0 / 3;  // of the faces: with more, too little time is saved
+constexpr double beside_curves = 6;       // decay lengths of heat that a band reaches
+constexpr double around_ends = 1.75;      // gaps that it reaches there
+constexpr double well_inside = 1;         // of how far the zero set goes: what is left beyond it
+constexpr double widest = 64;             // times as wide as at first; largest_band stops it before
 
 /// An end, and how far it is to the nearest end of what is not joined to it; if there is none, to
 /// the nearest of its own [length].
@@ -155,7 +155,7 @@ class NearCurves {
       const std::vector<EdgePaths::Start> from = starts(gaps, wider, radius);
       const VecX d = along_edges_.lengths(from, radius, task);
       const Band band(mesh_, d);
-      if (band.mesh()->n_faces() > most_faces * mesh_.n_faces()) return {};
+      if (band.mesh()->n_faces() > largest_band * mesh_.n_faces()) return {};
       VecX phi = VecX::Constant(mesh_.n_vertices(), infinity);
       if (!solve_on(band, task.stage(0.5, "near the curves"), phi)) return {};
       if (zero_set_inside(mesh_, band, phi, radius - d.array(), beside(from, radius, task),

@@ -13,7 +13,7 @@ namespace {
 using Lanes = PointBlocks::Lanes;
 using Block = PointBlocks::Block;
 
-constexpr double reach = 32;  // in 1/lambda beyond the nearest sample: e^-32 is rounding
+constexpr double sample_reach = 32;  // in 1/lambda beyond the nearest sample: e^-32 is rounding
 
 /// Sums of sixteen lanes at a time of a vector.
 struct VectorSum {
@@ -42,7 +42,7 @@ class KernelSum : public PointwiseDistance {
   void visit(const Vec3& x, double sigma, const Visit& body) const {
     const Vec3 q = x - blocks_.origin();
     const double least = 1e-12 / lambda_;  // at a sample, where kernels may be singular
-    blocks_.visit(x, sigma + reach / lambda_, [&](const Block& b) {
+    blocks_.visit(x, sigma + sample_reach / lambda_, [&](const Block& b) {
       Terms t;
       t.dx = q[0] - b.x;
       t.dy = q[1] - b.y;
@@ -59,7 +59,7 @@ class KernelSum : public PointwiseDistance {
   PointBlocks blocks_;
 };
 
-class HopfCole : public KernelSum {
+class HopfColeSum : public KernelSum {
  public:
   using KernelSum::KernelSum;
   DistanceSample at(const Vec3& x) const override {
@@ -88,7 +88,7 @@ class HopfCole : public KernelSum {
   }
 };
 
-class Planar : public KernelSum {
+class PlanarSum : public KernelSum {
  public:
   using KernelSum::KernelSum;
   DistanceSample at(const Vec3& x) const override {
@@ -113,9 +113,9 @@ class Planar : public KernelSum {
   }
 };
 
-class LogSumExp : public KernelSum {
+class LogSumExpSum : public KernelSum {
  public:
-  LogSumExp(const OrientedPoints& samples, double lambda)
+  LogSumExpSum(const OrientedPoints& samples, double lambda)
       : KernelSum(samples, lambda),
         winding_(samples.points, samples.normals, samples.areas),
         mean_area_(samples.areas.mean()) {}
@@ -145,17 +145,17 @@ class LogSumExp : public KernelSum {
 
 std::unique_ptr<const PointwiseDistance> hopf_cole_distance(const OrientedPoints& samples,
                                                             double lambda) {
-  return std::make_unique<HopfCole>(samples, lambda);
+  return std::make_unique<HopfColeSum>(samples, lambda);
 }
 
 std::unique_ptr<const PointwiseDistance> planar_distance(const OrientedPoints& samples,
                                                          double lambda) {
-  return std::make_unique<Planar>(samples, lambda);
+  return std::make_unique<PlanarSum>(samples, lambda);
 }
 
 std::unique_ptr<const PointwiseDistance> log_sum_exp_distance(const OrientedPoints& samples,
                                                               double lambda) {
-  return std::make_unique<LogSumExp>(samples, lambda);
+  return std::make_unique<LogSumExpSum>(samples, lambda);
 }
 
 }  // namespace littoral

@@ -17,7 +17,7 @@ namespace {
 
 /// What there is on every kind of element.
 template <class S>
-OptionTable<S> with_stopping(OptionTable<S> table) {
+OptionTable<S> on_every_element(OptionTable<S> table) {
   return table
       .number(&S::tolerance, "tolerance", "of the integral of squared distance", 1e-10, 1e-1,
               "Duality gap at which the solver stops.")
@@ -34,7 +34,7 @@ OptionTable<S> with_stopping(OptionTable<S> table) {
 const OptionTable<Quadratic>& quadratic_options() {
   using O = Quadratic;
   static const OptionTable<O> table =
-      with_stopping(OptionTable<O>())
+      on_every_element(OptionTable<O>())
           .number(&O::spacing, "spacing", "mean edge lengths, 0 = none", 0, 100,
                   "Distance between samples on curves, at least 0.001; 0 knows the distance around "
                   "them instead.")
@@ -48,7 +48,7 @@ const OptionTable<Quadratic>& quadratic_options() {
 }
 
 const OptionTable<TetQuadratic>& tet_quadratic_options() {
-  static const OptionTable<TetQuadratic> table = with_stopping(OptionTable<TetQuadratic>());
+  static const OptionTable<TetQuadratic> table = on_every_element(OptionTable<TetQuadratic>());
   return table;
 }
 

@@ -18,7 +18,7 @@ void tangent_frame(const Vec3& n, Vec3& s, Vec3& t) {
 namespace {
 
 /// A neighbour in the frame of a point, lengths in units of the fit's scale.
-struct Seen {
+struct SeenNeighbor {
   double S, T, H;   // place along s, t and n
   double A, B;      // its normal along s and t
   double distance;  // distance, kept away from 0
@@ -26,7 +26,7 @@ struct Seen {
 };
 
 /// What the network sees of a neighbour (python/train_torus_fit.py: fit).
-Eigen::Matrix<float, LearnedFit::features, 1> features_of(const Seen& j, const Vec3& d,
+Eigen::Matrix<float, LearnedFit::features, 1> features_of(const SeenNeighbor& j, const Vec3& d,
                                                           const Vec3& m, const Vec3& n) {
   const double rises = j.H / j.distance, seen = d.dot(m) / j.distance;
   const double inverse = 1 / std::sqrt(j.S * j.S + j.T * j.T + 1e-8);
@@ -46,7 +46,7 @@ HeightPolynomial fit_heights(const TorusFit& fit, const OrientedPoints& cloud, i
   Vec3 s, t;
   tangent_frame(n, s, t);
   constexpr std::size_t most = 64;
-  std::array<Seen, most> rows;
+  std::array<SeenNeighbor, most> rows;
   const std::size_t count = std::min(neighbours.size(), most);
   const bool learned = fit.learned && count == LearnedFit::neighbours;
   LearnedFit::Features features;
@@ -81,7 +81,7 @@ HeightPolynomial fit_heights(const TorusFit& fit, const OrientedPoints& cloud, i
     M.noalias() += weighted * g.transpose();
     r += value * weighted;
   };
-  for (const Seen& j : std::span(rows).first(count)) {
+  for (const SeenNeighbor& j : std::span(rows).first(count)) {
     // Height over the plane, shortened so that points of a sphere lie exactly on a paraboloid with
     // its curvature: on it |d|^2 = -2 R H.
     const double S = j.S, T = j.T, flat = S * S + T * T;
@@ -99,7 +99,7 @@ HeightPolynomial fit_heights(const TorusFit& fit, const OrientedPoints& cloud, i
   HeightPolynomial out;
   if (!a.allFinite()) return out;
   double residual = 0, total = 0;
-  for (const Seen& j : std::span(rows).first(count)) {
+  for (const SeenNeighbor& j : std::span(rows).first(count)) {
     const double da = a[2] + a[3] * j.T + 2 * a[5] * j.S + j.A;
     const double db = a[1] + a[3] * j.S + 2 * a[4] * j.T + j.B;
     residual += j.normal_weight * (da * da + db * db);

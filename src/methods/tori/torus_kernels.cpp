@@ -13,8 +13,6 @@ namespace littoral {
 
 namespace {
 
-constexpr int lanes = torus_lanes;
-
 /// e^x for x <= 0, to rounding; e^-700 or e^-80 below.
 [[gnu::always_inline]] inline double exponential(double x) {
   const double z = (x > -700 ? x : -700) * 1.4426950408889634;
@@ -63,14 +61,14 @@ template <class S>
 
 /// Numbers by lanes, the parts of each in arrays of their own.
 template <class T>
-struct Lanes {
-  alignas(64) T of[lanes];
+struct ByLane {
+  alignas(64) T of[torus_lanes];
   [[gnu::always_inline]] T operator[](int l) const { return of[l]; }
   [[gnu::always_inline]] void put(int l, T a) { of[l] = a; }
 };
 template <class S>
-struct Lanes<Slope<S>> {
-  Lanes<S> value, x, y, z;
+struct ByLane<Slope<S>> {
+  ByLane<S> value, x, y, z;
   [[gnu::always_inline]] Slope<S> operator[](int l) const { return {value[l], x[l], y[l], z[l]}; }
   [[gnu::always_inline]] void put(int l, const Slope<S>& a) {
     value.put(l, a.value);
@@ -82,13 +80,13 @@ struct Lanes<Slope<S>> {
 
 /// In a fixed order, whatever the instructions.
 template <class S>
-[[gnu::always_inline]] inline S sum_of(Lanes<S>& a) {
-  static_assert(lanes == 12);
+[[gnu::always_inline]] inline S sum_of(ByLane<S>& a) {
+  static_assert(torus_lanes == 12);
   for (int l = 0; l < 4; ++l) a.of[l] += a.of[l + 4] + a.of[l + 8];
   return (a.of[0] + a.of[2]) + (a.of[1] + a.of[3]);
 }
 template <class S>
-[[gnu::always_inline]] inline Slope<S> sum_of(Lanes<Slope<S>>& a) {
+[[gnu::always_inline]] inline Slope<S> sum_of(ByLane<Slope<S>>& a) {
   return {sum_of(a.value), sum_of(a.x), sum_of(a.y), sum_of(a.z)};
 }
 
@@ -100,10 +98,10 @@ struct Plain {
 
   [[gnu::always_inline]] S squared(int l) const { return t.squared[l]; }
   [[gnu::always_inline]] S excess(int l) const { return t.excess[l]; }
-  [[gnu::always_inline]] S along(const S (&axis)[3][lanes], int l) const {
+  [[gnu::always_inline]] S along(const S (&axis)[3][torus_lanes], int l) const {
     return t.x[0][l] * axis[0][l] + t.x[1][l] * axis[1][l] + t.x[2][l] * axis[2][l];
   }
-  [[gnu::always_inline]] S patch(const S (&across)[3][lanes], int l) const {
+  [[gnu::always_inline]] S patch(const S (&across)[3][torus_lanes], int l) const {
     return patch_distance<S, S>(t.k1[l], t.k2[l], t.rho[l], along(t.e1, l), along(across, l),
                                 along(t.n, l));
   }
@@ -123,7 +121,7 @@ struct Sloped {
     return {t.excess[l], 2 * (away.x[0][l] - away.x[0][0]), 2 * (away.x[1][l] - away.x[1][0]),
             2 * (away.x[2][l] - away.x[2][0])};
   }
-  [[gnu::always_inline]] Slope<S> patch(const S (&across)[3][lanes], int l) const {
+  [[gnu::always_inline]] Slope<S> patch(const S (&across)[3][torus_lanes], int l) const {
     const Plain<S> at{t};
     const PatchSlope<S> g = patch_slope<S>(t.k1[l], t.k2[l], t.rho[l], at.along(t.e1, l),
                                            at.along(across, l), at.along(t.n, l));
@@ -140,11 +138,11 @@ template <class Place, class S>
   using std::sqrt;
   using T = typename Place::Number;
   const TorusLanes<S>& t = place.t;
-  Lanes<T> d, decay, a, b;
-  Lanes<S> c;
-  for (int l = 0; l < lanes; ++l) d.put(l, sqrt(T(place.squared(l) + T(torus_tiny<S>))));
+  ByLane<T> d, decay, a, b;
+  ByLane<S> c;
+  for (int l = 0; l < torus_lanes; ++l) d.put(l, sqrt(T(place.squared(l) + T(torus_tiny<S>))));
   const T nearest = d[0], farthest = d[n - 1];
-  for (int l = 0; l < lanes; ++l) {
+  for (int l = 0; l < torus_lanes; ++l) {
     const T closeness = T(S(1)) - d[l] / farthest;
     const T w = t.used[l] * (closeness * closeness + T(S(1e-9)));
     a.put(l, w * t.rho[l]);
@@ -152,19 +150,19 @@ template <class Place, class S>
   }
   const T rho = sum_of(a) / sum_of(b);
   const T rate = T(-S(blend_sharpness)) / rho;
-  for (int l = 0; l < lanes; ++l)
+  for (int l = 0; l < torus_lanes; ++l)
     decay.put(l, exponential(T(rate * (place.excess(l) / (d[l] + nearest)))));
   const T last = decay[n - 1];
   const S side = static_cast<S>(known);
-  alignas(64) S across[3][lanes];
-  for (int l = 0; l < lanes; ++l) {
+  alignas(64) S across[3][torus_lanes];
+  for (int l = 0; l < torus_lanes; ++l) {
     const S nx = t.n[0][l], ny = t.n[1][l], nz = t.n[2][l];
     const S ex = t.e1[0][l], ey = t.e1[1][l], ez = t.e1[2][l];
     across[0][l] = ny * ez - nz * ey;
     across[1][l] = nz * ex - nx * ez;
     across[2][l] = nx * ey - ny * ex;
   }
-  for (int l = 0; l < lanes; ++l) {
+  for (int l = 0; l < torus_lanes; ++l) {
     const T w = t.used[l] * (t.weight[l] * (decay[l] - last) + T(S(blend_floor)));
     const T g = place.patch(across, l);
     const bool inside = g < T(S(0));

@@ -69,12 +69,12 @@ VecX solve_dual_laplace(const JumpCalculus& D, const std::vector<DualEdge>& edge
 }
 
 /// Once round a node, from face to face: the edges crossed, +1 from left to right.
-using Turn = std::vector<std::pair<int, int>>;
+using Turns = std::vector<std::pair<int, int>>;
 
 /// Turns round all nodes inside the surface; empty on the boundary and where the surface is not
 /// glued. The sense of each is its own.
-std::vector<Turn> turns(const JumpCalculus& J) {
-  std::vector<Turn> all(J.n_nodes);
+std::vector<Turns> turns(const JumpCalculus& J) {
+  std::vector<Turns> all(J.n_nodes);
   std::vector<char> seen(all.size(), 0);
   for (int start = 0; start < 3 * J.n_faces; ++start) {
     int f = start / 3, c = start % 3, k = c;
@@ -100,7 +100,7 @@ std::vector<Turn> turns(const JumpCalculus& J) {
 
 /// gamma = omega - delta beta with d delta beta = d omega round every node (eq. 6.1.2, dual).
 void subtract_coexact(const JumpCalculus& J, const Task& task, VecX& omega) {
-  const std::vector<Turn> turn = turns(J);
+  const std::vector<Turns> turn = turns(J);
   std::vector<int> unknown(turn.size(), -1), node_component(turn.size());
   std::vector<char> whole(J.n_components, 0);
   for (int c = 0; c < J.n_components; ++c) whole[c] = J.orientable[c];

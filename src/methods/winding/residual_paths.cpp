@@ -12,7 +12,7 @@ namespace littoral {
 namespace {
 
 using Reached = std::pair<double, int>;  // distance, node
-using Front = std::priority_queue<Reached, std::vector<Reached>, std::greater<>>;
+using NearestFirst = std::priority_queue<Reached, std::vector<Reached>, std::greater<>>;
 
 /// Nodes and edges as a graph: at[i] lists (edge, other end).
 struct EdgeGraph {
@@ -37,15 +37,15 @@ struct EdgeGraph {
 
 /// Dijkstra's search from one node to the nearest that is wanted; remembers what it touched so that
 /// the next search starts clean.
-class Search {
+class PathSearch {
  public:
-  Search(const JumpCalculus& J, const EdgeGraph& graph)
+  PathSearch(const JumpCalculus& J, const EdgeGraph& graph)
       : J_(J), graph_(graph), distance_(J.n_nodes, infinity), via_(J.n_nodes, -1) {}
 
   /// The node found and how far it is; node -1: none. `path` gets its edges.
   template <class Wanted>
   Reached nearest(int start, const Wanted& wanted, std::vector<int>& path) {
-    Front front;
+    NearestFirst front;
     reach(start, 0, -1, front);
     Reached found{infinity, -1};
     while (!front.empty()) {
@@ -74,7 +74,7 @@ class Search {
   }
 
  private:
-  void reach(int i, double d, int via, Front& front) {
+  void reach(int i, double d, int via, NearestFirst& front) {
     if (distance_[i] == infinity) touched_.push_back(i);
     distance_[i] = d;
     via_[i] = via;
@@ -106,7 +106,7 @@ MatX3 integrate_parts(const JumpCalculus& J, const VecX& gamma, const std::vecto
       queue.push_back(g);
     }
   part.assign(J.n_faces, -1);
-  Front front;
+  NearestFirst front;
   for (int root = 0; root < J.n_faces; ++root) {
     if (part[root] >= 0) continue;
     part[root] = root;
@@ -141,10 +141,10 @@ std::vector<char> completing_paths(const JumpCalculus& J, const VecX& curve, con
   for (int i = 0; i < J.n_nodes; ++i)
     if (graph.on_boundary[i]) surplus[i] = 0;
   // Nearest pairs first: an end whose start is taken meanwhile looks again.
-  Search search(J, graph);
+  PathSearch search(J, graph);
   std::vector<int> path;
   const auto wanted = [&](int i) { return surplus[i] < 0 || graph.on_boundary[i]; };
-  Front ends;
+  NearestFirst ends;
   const auto look = [&](int i) {
     task.checkpoint();
     const Reached found = search.nearest(i, wanted, path);

@@ -21,7 +21,7 @@ constexpr int longest_overlap = 80;
 constexpr double around_prescribed =
     18;  // what lies beyond does not change a source that prescribes values
 constexpr double negligible = 1e-250;
-constexpr std::size_t row_grain = 4096;
+constexpr std::size_t window_grain = 4096;
 /// The same with several layers made one where the range of numbers allows it.
 template <class Scalar>
 ScaledField<Scalar> with_fewer_layers(ScaledField<Scalar> field, int block) {
@@ -151,7 +151,7 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::solve_region(
   const int n_blocks = int_size(blocks), n = n_blocks * block_;
   Eigen::SparseMatrix<Scalar> K(n, n);  // lower triangle: a column is what a row has on its right
   int* begin = K.outerIndexPtr();
-  parallel_for(blocks.size(), row_grain, [&](std::size_t first, std::size_t end) {
+  parallel_for(blocks.size(), window_grain, [&](std::size_t first, std::size_t end) {
     std::vector<int> beside;
     for (std::size_t k = first; k < end; ++k) {
       A_->neighbours(blocks[k], beside);
@@ -165,7 +165,7 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::solve_region(
   for (int k = 0; k < n; ++k) sum += std::exchange(begin[k], sum);
   begin[n] = sum;
   K.resizeNonZeros(sum);
-  parallel_for(blocks.size(), row_grain, [&](std::size_t first, std::size_t end) {
+  parallel_for(blocks.size(), window_grain, [&](std::size_t first, std::size_t end) {
     BlockRow<Scalar> row;
     for (std::size_t k = first; k < end; ++k) {
       const int own = static_cast<int>(k);
@@ -279,8 +279,8 @@ double HeatWindows<Scalar>::misfit(const ScaledField<Scalar>& field, const HeatS
   // (A x)_i at blocks with neighbours in the next layer, in units of their own, relative to the
   // size of its terms; where b is 0, as it is away from the sources.
   const std::size_t n = position_.size();
-  std::vector<double> worst(n / row_grain + 1, 0.0);
-  parallel_for(n, row_grain, [&](std::size_t first, std::size_t end) {
+  std::vector<double> worst(n / window_grain + 1, 0.0);
+  parallel_for(n, window_grain, [&](std::size_t first, std::size_t end) {
     std::vector<int> beside;
     BlockRow<Scalar> row;
     stop_if_cancelled(task);
@@ -311,7 +311,7 @@ double HeatWindows<Scalar>::misfit(const ScaledField<Scalar>& field, const HeatS
             size += magnitude(term);
           }
         }
-        double& here = worst[first / row_grain];
+        double& here = worst[first / window_grain];
         if (size > 0) here = std::max(here, magnitude(sum) / size);
       }
     }

@@ -15,7 +15,7 @@ constexpr Eigen::Index largest_coarsest = 20'000;  // unknowns that are factored
 constexpr double strength = 0.08;                  // halves with each level (Vanek et al., sec. 5)
 constexpr double lowest = 0.1;  // part of the spectrum that smoothing is for: [lowest, 1]
 constexpr int degree = 2;       // of the Chebyshev polynomial
-constexpr std::size_t grain = 1 << 15;
+constexpr std::size_t entries_at_once = 1 << 15;
 
 VecX inverse_row_sums(const SpRows& A) {
   VecX s(A.rows());
@@ -42,7 +42,7 @@ void smooth(const SpRows& A, const VecX& inverse_size, const VecX& b, VecX& x, b
     const double keep = k == 0 ? 0 : rho_next * rho;
     const double step = k == 0 ? 1 / middle : 2 * rho_next / half;
     rho = rho_next;
-    parallel_for(b.size(), grain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(b.size(), entries_at_once, [&](std::size_t begin, std::size_t end) {
       for (Eigen::Index i = index(begin); i < index(end); ++i) {
         const double r = inverse_size[i] * (zero ? b[i] : b[i] - Ax[i]);
         d[i] = (k == 0 ? 0 : keep * d[i]) + step * r;
@@ -118,14 +118,14 @@ void Multigrid::cycle_at(std::size_t k, const VecX& b, VecX& x, Work& work,
   Work::OfLevel& own = work.levels[k];
   smooth(level.A, level.inverse_size, b, x, true, own.d, own.r, task);
   multiply(level.A, x, own.r, task);
-  parallel_for(b.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(b.size(), entries_at_once, [&](std::size_t begin, std::size_t end) {
     for (Eigen::Index i = index(begin); i < index(end); ++i) own.r[i] = b[i] - own.r[i];
   });
   Work::OfLevel& coarse = work.levels[k + 1];
   multiply(level.R, own.r, coarse.b, task);
   cycle_at(k + 1, coarse.b, coarse.x, work, task);
   multiply(level.P, coarse.x, own.r, task);
-  parallel_for(b.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(b.size(), entries_at_once, [&](std::size_t begin, std::size_t end) {
     for (Eigen::Index i = index(begin); i < index(end); ++i) x[i] += own.r[i];
   });
   smooth(level.A, level.inverse_size, b, x, false, own.d, own.r, task);

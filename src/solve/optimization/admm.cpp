@@ -18,10 +18,10 @@ namespace littoral {
 
 namespace {
 
-constexpr std::size_t grain = 16384;
+constexpr std::size_t cells_at_once = 16384;
 constexpr std::size_t cells_in_cache = 512;  // whose numbers stay there from one loop to the next
 
-constexpr int check_every = 5;
+constexpr int checks_every = 5;
 constexpr int cells_from = 10;             // iteration in which cells get penalties of their own
 constexpr int cells_again = 30;            // and new ones; then after as many more, or half of all
 constexpr double over_multiplier = 4.0;    // which are this many times their multipliers
@@ -52,7 +52,7 @@ class Admm {
     int changes_left = o_.penalty_changes;
     for (int k = 1; k <= o_.max_iterations; ++k) {
       task_.checkpoint(progress_);
-      const bool last = k == o_.max_iterations, check = k == 1 || k % check_every == 0 || last;
+      const bool last = k == o_.max_iterations, check = k == 1 || k % checks_every == 0 || last;
       iterate(check);
       result.iterations = k;
       if (!check) continue;
@@ -98,7 +98,7 @@ class Admm {
   /// body(c, i) for every cell c, whose first number is entry i.
   template <class Body>
   void for_cells(const Body& body) const {
-    parallel_for(p_.A.size(), grain, [&](std::size_t c, std::size_t end) {
+    parallel_for(p_.A.size(), cells_at_once, [&](std::size_t c, std::size_t end) {
       for (; c < end; ++c) body(c, index(c) * p_.dim);
     });
   }
@@ -107,15 +107,16 @@ class Admm {
   template <class Term>
   double sum_cells(const Term& term) const {
     const std::size_t cells = p_.A.size();
-    std::vector<double> part((cells + grain - 1) / grain, 0);
-    for_cells([&](Eigen::Index c, Eigen::Index i) { part[c / grain] += p_.A[c] * term(c, i); });
+    std::vector<double> part((cells + cells_at_once - 1) / cells_at_once, 0);
+    for_cells(
+        [&](Eigen::Index c, Eigen::Index i) { part[c / cells_at_once] += p_.A[c] * term(c, i); });
     return std::accumulate(part.begin(), part.end(), 0.0);
   }
 
   void iterate(bool keep_old) {
     VecX& z = state_.z;
     multiply(D_, pull_, force_, task_);
-    parallel_for(p_.b.size(), grain, [&](std::size_t i, std::size_t end) {
+    parallel_for(p_.b.size(), cells_at_once, [&](std::size_t i, std::size_t end) {
       for (; i < end; ++i) force_[index(i)] += p_.b[index(i)];
     });
     u_ = solve_cells_ ? solve_cells_(force_) : p_.solve(force_, state_.rho);
@@ -128,7 +129,7 @@ class Admm {
     }
     const double* const before = keep_old ? old_z_.data() : z.data();
     g_.resize(z.size());
-    parallel_for(p_.A.size(), grain, [&](std::size_t c, std::size_t end) {
+    parallel_for(p_.A.size(), cells_at_once, [&](std::size_t c, std::size_t end) {
       for (; c < end; c += cells_in_cache)
         step_in_cells(index(c), index(std::min(end, c + cells_in_cache)), before);
     });
@@ -175,7 +176,7 @@ class Admm {
       struct Sums {
         double split = 0, g = 0, z = 0;
       };
-      std::vector<Sums> part((p_.A.size() + grain - 1) / grain);
+      std::vector<Sums> part((p_.A.size() + cells_at_once - 1) / cells_at_once);
       for_cells([&](Eigen::Index c, Eigen::Index i) {
         double split = 0, g = 0, of = 0;
         for (int d = 0; d < p_.dim; ++d) {
@@ -185,7 +186,7 @@ class Admm {
           of += z[i + d] * z[i + d];
           scaled_[i + d] = rho_[c] * (z[i + d] - old_z_[i + d]);
         }
-        Sums& sums = part[c / grain];
+        Sums& sums = part[c / cells_at_once];
         sums.split += p_.A[c] * split;
         sums.g += p_.A[c] * g;
         sums.z += p_.A[c] * of;

@@ -7,7 +7,7 @@
 namespace littoral {
 
 namespace {
-constexpr int max_iterations = 200;
+constexpr int most_iterations = 200;
 
 /// Of each group.
 void remove_means(const std::vector<int>& group, VecX& v) {
@@ -48,7 +48,7 @@ VecX constraint_multipliers(const ConstraintSolver& solver, const ConstraintRows
   const double start = std::sqrt(rr / static_cast<double>(A.rows()));
   int iteration = 0;
   const auto residual = [&] { return std::sqrt(rr / static_cast<double>(A.rows())); };
-  for (; iteration < max_iterations && residual() > rows.tolerance; ++iteration) {
+  for (; iteration < most_iterations && residual() > rows.tolerance; ++iteration) {
     // Residuals fall geometrically: their logarithm is the progress.
     const double done = std::log(start / residual()) / std::log(start / rows.tolerance);
     task.checkpoint(std::min(1.0, std::max(0.0, done)));

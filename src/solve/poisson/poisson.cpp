@@ -88,7 +88,7 @@ std::optional<ConstantRows> constant_rows(const LevelRows& rows, const std::vect
 }
 
 // Beyond, the factor costs too much memory, or more time than the iterations of one solve.
-constexpr int largest_direct = 2'000'000, largest_for_one_solve = 400'000;
+constexpr int largest_direct = 2'000'000, largest_solved_once = 400'000;
 
 }  // namespace
 
@@ -99,7 +99,7 @@ Poisson::Poisson(std::shared_ptr<const SpMat> L, std::vector<int> component, int
       component_(std::move(component)),
       first_(first_of_components(component_, n_components)),
       one_solve_(solver == PoissonSolver::automatic_for_one_solve) {
-  const int largest = one_solve_ ? largest_for_one_solve : largest_direct;
+  const int largest = one_solve_ ? largest_solved_once : largest_direct;
   if (solver == PoissonSolver::multigrid ||
       (solver != PoissonSolver::direct && L_->rows() > largest))
     return;

@@ -25,7 +25,7 @@ foreach(source ${littoral_hot_sources})
     message(FATAL_ERROR "cmake/compile_times.cmake names ${source}, which is not there")
   endif()
 endforeach()
-if(NOT LITTORAL_SANITIZE)  # files with options are compiled alone
+if(NOT LITTORAL_QUICK_BUILD)  # files with options are compiled alone
   set_property(SOURCE ${littoral_hot_sources} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
   # Beside a precompiled header of -O2 GCC does not do all that -O3 does; here it shows in the times.
   set_property(SOURCE src/solve/direct/dense_products.cpp src/solve/direct/supernode_kernels.cpp src/solve/direct/strip_kernels.cpp
@@ -36,7 +36,7 @@ endif()
 # Eigen's decompositions of small matrices, as long to compile as a dozen other files.
 set_property(SOURCE src/base/dense_decompositions.cpp APPEND PROPERTY COMPILE_OPTIONS
   $<$<CONFIG:Release>:-O1>)
-if(LITTORAL_SANITIZE)
+if(LITTORAL_QUICK_BUILD)
   set_property(SOURCE src/base/dense_decompositions.cpp APPEND PROPERTY COMPILE_OPTIONS -O0)
 endif()
 set_property(SOURCE src/base/dense_decompositions.cpp PROPERTY SKIP_PRECOMPILE_HEADERS ON)

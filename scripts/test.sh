@@ -24,7 +24,7 @@ long_stages=(slow sanitize_slow sanitize_package clusters soak fuzz_long mutate 
 all_stages=("${test_stages[@]}" quick package "${long_stages[@]}")
 
 # Suites that take longer than a few seconds each; `quick` leaves them out.
-slow='Slow|^Cases/|^Domains/OnEveryDomain|^(Multigrid|Regularized[A-Za-z]*|AllPairs|HeatPoints|Sharpen|SignedHeatTets|Picture|Quadratic[A-Za-z]*|SignedQuadratic)\.'
+slow='Slow|^Cases/|^Domains/OnEveryDomain|^(Multigrid|Regularized[A-Za-z]*|AllPairs|HeatPoints|Sharpen|SignedHeatTets|Picture|Repair|RepairWalls|TracedScene|Quadratic[A-Za-z]*|SignedQuadratic)\.'
 # Suites that several threads work in.
 shared_between_threads='Parallel|Threads|Registry|Solver'
 
@@ -37,12 +37,17 @@ build() {  # preset, further arguments of cmake --build
   ) 9>"build/$preset.lock"
 }
 compilers=()
-# The same, with the module of the Python package. What has been built whole in this run stays as it is:
-# stages that run side by side read it.
-build_release() {
+# The build that most stages test, with the module of the Python package: the release, or where stages of
+# `make check` are all, one that is quicker to compile. What has been built whole in this run stays
+# as it is: stages that run side by side read it.
+main=check
+build_main() {
   local compilers=(-DLITTORAL_PYTHON=ON -DPython_EXECUTABLE="$venv/python")
-  [[ -f $logs/release.built ]] && return
-  build release "$@" && { [ $# -gt 0 ] || touch "$logs/release.built"; }
+  [[ -f $logs/main.built ]] && return
+  case "$main" in
+    release) build release "$@" ;;
+    *) with_clang "$main" "$@" ;;
+  esac && { [ $# -gt 0 ] || touch "$logs/main.built"; }
 }
 viewer_packages() {  # once, as `npm ci` takes away what another stage may be running
   flock build/viewer.lock sh -c 'cd viewer && [ node_modules/.package-lock.json -nt package-lock.json ] ||
@@ -73,36 +78,36 @@ stage_tools() { "$venv/python" -m pytest -q tests/tools; }  # tests of the check
 
 stage_docs() { "$venv/mkdocs" build --strict --quiet --site-dir build/site; }
 
-stage_quick() { build_release && run_tests release/tests/littoral_tests --without "$slow"; }
+stage_quick() { build_main && run_tests "$main/tests/littoral_tests" --without "$slow"; }
 
-stage_release() { build_release && run_tests release/tests/littoral_tests; }
+stage_release() { build_main && run_tests release/tests/littoral_tests; }
 
 stage_cli() {
-  build_release && LITTORAL="$PWD/build/release/littoral" "$venv/python" -m pytest -q -rs tests/cli
+  build_main && LITTORAL="$PWD/build/release/littoral" "$venv/python" -m pytest -q -rs tests/cli
 }
 
 # The Python package as it lies in the build: its stubs, and its tests; arguments: of pytest.
 stage_package() {
-  local package="$PWD/build/release/python"
-  build_release &&
+  local package="$PWD/build/$main/python"
+  build_main &&
     PYTHONPATH="$package" "$venv/python" -m nanobind.stubgen -q -m littoral._core -o build/_core.pyi &&
     "$venv/ruff" format -q --config 'extend-exclude = []' build/_core.pyi && diff build/_core.pyi python/littoral/_core.pyi &&
-    LITTORAL="$PWD/build/release/littoral" PYTHONPATH="$package" "$venv/python" -m pytest -q -rs python/tests "$@"
+    LITTORAL="$PWD/build/$main/littoral" PYTHONPATH="$package" "$venv/python" -m pytest -q -rs python/tests "$@"
 }
 
 # The code on the pages of the documentation.
 stage_pages() {
-  build_release && LITTORAL="$PWD/build/release/littoral" PYTHONPATH="$PWD/build/release/python" \
+  build_main && LITTORAL="$PWD/build/$main/littoral" PYTHONPATH="$PWD/build/$main/python" \
     "$venv/python" -m pytest -q -rs tests/pages
 }
 
 # The wheel in an empty environment; then of the package's tests those that need more than that.
 stage_wheel() {
-  build_release && scripts/test_wheel.sh build/release &&
+  build_main && scripts/test_wheel.sh build/release &&
     stage_package --but-passed-in build/wheel-test/tests.xml
 }
 
-stage_install() { build_release && scripts/test_install.sh build/release; }
+stage_install() { build_main && scripts/test_install.sh build/release; }
 
 # Address and undefined-behaviour sanitizers; the suites named *Slow* wait for `make test-long`.
 stage_sanitize() {
@@ -121,7 +126,7 @@ stage_fuzz() {
 # The viewer's tests on pages of this build; arguments: what they are run by.
 viewer_tests() {
   local page="$PWD/build/viewer-test.html" volume="$PWD/build/viewer-volume-test.html" trace="$PWD/build/viewer-trace-test.html"
-  build_release &&
+  build_main &&
     LITTORAL_PAGE_OUT="$page" LITTORAL_VOLUME_PAGE_OUT="$volume" LITTORAL_TRACE_PAGE_OUT="$trace" build/release/tests/littoral_tests --gtest_brief=1 --gtest_filter='*BrowserTest*' &&
     viewer_packages && (cd viewer && PAGE="$page" VOLUME_PAGE="$volume" TRACE_PAGE="$trace" "$@" npm test)
 }
@@ -131,7 +136,7 @@ stage_viewer() { viewer_tests env; }
 # The package for JavaScript and the studio beside the program, in Node and in Chromium.
 stage_web() {
   local dist="$PWD/build/web/dist"
-  build web && build_release --target littoral_cli && node web/build.mjs build/web "$dist" &&
+  build web && build_main --target littoral_cli && node web/build.mjs build/web "$dist" &&
     viewer_packages &&
     DIST="$dist" TOOLS="$PWD/build/web/node_modules" LITTORAL="$PWD/build/release/littoral" \
       node --test web/test/package.test.mjs web/test/browser.test.mjs &&
@@ -141,7 +146,7 @@ stage_web() {
 }
 
 # What follows makes up the long tier.
-stage_slow() { build_release && run_tests release/tests/littoral_tests --only Slow --limit 3600; }
+stage_slow() { build_main && run_tests release/tests/littoral_tests --only Slow --limit 3600; }
 
 stage_sanitize_slow() {
   with_clang asan --target littoral_tests &&
@@ -162,7 +167,7 @@ stage_sanitize_package() {
 
 # Batches on local clusters of Ray and Dask, one of whose workers is killed, and in an object store.
 stage_clusters() {
-  build_release && python3 -m venv build/clusters &&
+  build_main && python3 -m venv build/clusters &&
     build/clusters/bin/pip install --quiet -r requirements-dev.txt -r requirements-clusters.txt &&
     LITTORAL="$PWD/build/release/littoral" PYTHONPATH="$PWD/build/release/python" \
       build/clusters/bin/python -m pytest -q -rs python/tests/test_batch.py python/tests/test_samples.py
@@ -170,7 +175,7 @@ stage_clusters() {
 
 # Batches of damaged inputs for an hour, or SOAK_SECONDS: nothing is lost, memory stays flat.
 stage_soak() {
-  build_release && PYTHONPATH="$PWD/build/release/python" "$venv/python" bench/batch/soak.py \
+  build_main && PYTHONPATH="$PWD/build/release/python" "$venv/python" bench/batch/soak.py \
     build/release/littoral examples/data build/soak "${SOAK_SECONDS:-3600}"
 }
 
@@ -181,7 +186,7 @@ stage_fuzz_long() {
 
 # Methods on random domains, by seeds; each process takes its share.
 many_cases() {
-  build_release --target littoral_tests &&
+  build_main --target littoral_tests &&
     seq 0 $((jobs - 1)) | xargs -P "$jobs" -I{} sh -c '
       share=$(($1 / $2))
       LITTORAL_CASES=$(({} * share)):$share exec build/release/tests/littoral_tests --gtest_brief=1 \
@@ -190,7 +195,7 @@ many_cases() {
 
 # Would the tests notice random changes to the sources?
 stage_mutate() {
-  build_release --target littoral_tests &&
+  build_main --target littoral_tests &&
     "$venv/python" scripts/mutate.py --count "${MUTATIONS:-100}" --seed "${MUTATE_SEED:-1}"
 }
 
@@ -226,12 +231,13 @@ for name in "$@"; do
 done
 [ ${#stages[@]} -gt 0 ] || stages=("${test_stages[@]}")
 for stage in "${stages[@]}"; do
+  [[ " ${check_stages[*]} " == *" $stage "* ]] || main=release
   [[ " ${all_stages[*]} " == *" $stage "* ]] ||
     { echo "there is no stage '$stage'; there are: check test long ${all_stages[*]}" >&2; exit 2; }
 done
 
 mkdir -p "$logs"
-rm -rf "$logs"/*.result "$logs"/*.taken "$logs/release.built"
+rm -rf "$logs"/*.result "$logs"/*.taken "$logs/main.built"
 begin=$SECONDS
 run_stage() {  # its output goes to its log, too; how it ended, and its times by the clock and of processors, to its result
   local stage=$1 start=$SECONDS result=FAILED

@@ -72,7 +72,8 @@ export async function state(page) {
 export async function saved(page, id, format) {
   await page.evaluate(() => { document.getElementById("save-menu").open = true; });
   if (format) await page.selectOption(`#${id.slice(5)}-format`, format);
-  const [download] = await Promise.all([page.waitForEvent("download"), page.click(`#${id}`)]);
+  const asked = (file) => file.suggestedFilename().endsWith(format ?? ""); // samples come with their card, in any order
+  const [download] = await Promise.all([page.waitForEvent("download", asked), page.click(`#${id}`)]);
   return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
 }
 

@@ -52,8 +52,8 @@ endif()
 # `littoral_joined_rooms` count as one: what a library's headers instantiate is then compiled once in a
 # portion, and not once in each small folder. Names in the unnamed namespaces of a folder, or of a
 # joined room, must differ. Clang, which needs half the memory of GCC for it, compiles four times as
-# many at a time: what they share is then compiled less often, a quarter of the time for tests. GCC
-# gains nothing from more.
+# many at a time: what they share is then compiled less often, which saves a quarter of the time for
+# tests. GCC gains nothing from more.
 set(littoral_joined_rooms cli io api sources domain operators contour solve methods)
 function(littoral_compile_together target bytes)
   if(CMAKE_CXX_COMPILER_ID STREQUAL Clang)

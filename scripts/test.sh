@@ -253,7 +253,7 @@ run_stage() {  # its output goes to its log, too; how it ended, and its times by
     >"$logs/$stage.result"
 }
 # Three lanes: what waits for one core most of the time, and the build for browsers, run beside what
-# keeps all cores busy. All may use build/release, but only the first lane while it builds it, which is
+# keeps all cores busy. All may use the main build, but only the first lane while it builds it, which is
 # the first thing it does. When the first lane has no more, it takes of the others what only reads there.
 busy=() beside=() browsers=() other=()
 for stage in "${stages[@]}"; do

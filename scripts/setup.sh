@@ -114,6 +114,7 @@ case "${1:-}" in
     if makes_environments python3; then  # pip beside apt: both wait for the network
       python_environment &
       environment=$!
+      trap wait EXIT  # pip ends before this does, also where apt fails
     fi
     install_packages "${build_packages[@]}" $(node_packages) "${test_packages[@]}" "${web_packages[@]}"
     if [ -n "$environment" ]; then wait "$environment"; else python_environment; fi

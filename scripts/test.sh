@@ -45,10 +45,12 @@ build_main() {
   local compilers=(-DLITTORAL_PYTHON=ON -DPython_EXECUTABLE="$venv/python")
   [[ -f $logs/main.built ]] && return
   case "$main" in
-    release) build release "$@" ;;
+    release) compilers+=(-DLITTORAL_TESTS=OFF) && build release "$@" ;;
     *) with_clang "$main" "$@" ;;
   esac && { [ $# -gt 0 ] || touch "$logs/main.built"; }
 }
+# The tests of that release, in its folder: Clang compiles them in less than half the time.
+release_tests() { build_main && with_clang tests; }
 viewer_packages() {  # once, as `npm ci` takes away what another stage may be running
   flock build/viewer.lock sh -c 'cd viewer && [ node_modules/.package-lock.json -nt package-lock.json ] ||
     npm ci --no-audit --no-fund --loglevel=error'
@@ -80,7 +82,7 @@ stage_docs() { "$venv/mkdocs" build --strict --quiet --site-dir build/site; }
 
 stage_quick() { build_main && run_tests "$main/tests/littoral_tests" --without "$slow"; }
 
-stage_release() { build_main && run_tests release/tests/littoral_tests; }
+stage_release() { release_tests && run_tests release/tests/littoral_tests; }
 
 stage_cli() {
   build_main && LITTORAL="$PWD/build/release/littoral" "$venv/python" -m pytest -q -rs tests/cli
@@ -126,7 +128,7 @@ stage_fuzz() {
 # The viewer's tests on pages of this build; arguments: what they are run by.
 viewer_tests() {
   local page="$PWD/build/viewer-test.html" volume="$PWD/build/viewer-volume-test.html" trace="$PWD/build/viewer-trace-test.html"
-  build_main &&
+  release_tests &&
     LITTORAL_PAGE_OUT="$page" LITTORAL_VOLUME_PAGE_OUT="$volume" LITTORAL_TRACE_PAGE_OUT="$trace" build/release/tests/littoral_tests --gtest_brief=1 --gtest_filter='*BrowserTest*' &&
     viewer_packages && (cd viewer && PAGE="$page" VOLUME_PAGE="$volume" TRACE_PAGE="$trace" "$@" npm test)
 }
@@ -146,7 +148,7 @@ stage_web() {
 }
 
 # What follows makes up the long tier.
-stage_slow() { build_main && run_tests release/tests/littoral_tests --only Slow --limit 3600; }
+stage_slow() { release_tests && run_tests release/tests/littoral_tests --only Slow --limit 3600; }
 
 stage_sanitize_slow() {
   with_clang asan --target littoral_tests &&
@@ -186,7 +188,7 @@ stage_fuzz_long() {
 
 # Methods on random domains, by seeds; each process takes its share.
 many_cases() {
-  build_main --target littoral_tests &&
+  release_tests &&
     seq 0 $((jobs - 1)) | xargs -P "$jobs" -I{} sh -c '
       share=$(($1 / $2))
       LITTORAL_CASES=$(({} * share)):$share exec build/release/tests/littoral_tests --gtest_brief=1 \
@@ -195,7 +197,8 @@ many_cases() {
 
 # Would the tests notice random changes to the sources?
 stage_mutate() {
-  build_main --target littoral_tests &&
+  local compilers=(-DLITTORAL_TESTS=ON)
+  build release --target littoral_tests &&
     "$venv/python" scripts/mutate.py --count "${MUTATIONS:-100}" --seed "${MUTATE_SEED:-1}"
 }
 

@@ -78,7 +78,7 @@ TEST(ForkServer, WorkDoesNotOutliveIt) {
   EXPECT_FALSE(server.wait(0.05).has_value());
 }  // its end would wait for the sleep
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(__clang__)
+#ifndef LITTORAL_SANITIZED  // whose shadow of memory is larger than the limit
 TEST(ForkServer, LimitsMemory) {
   const ForkEnd end = forked_end("fill", {0, 1e9});
   EXPECT_EQ(end.told, "") << "the allocation throws";

@@ -291,7 +291,8 @@ TEST_F(IoWrite, ErrorsNameThePath) {
     return "no error";
   };
   const fs::path missing = folder_ / "no" / "a.obj";
-  EXPECT_EQ(error(missing), "cannot write " + missing.string() + ": No such file or directory");
+  EXPECT_EQ(error(missing), "cannot write " + missing.string() + ": there is no folder " +
+                                missing.parent_path().string());
   EXPECT_EQ(error(folder_), "cannot write " + folder_.string() + ": Is a directory");
   if (fs::exists("/dev/full")) {
     EXPECT_EQ(error("/dev/full"), "cannot write /dev/full: No space left on device");

@@ -98,12 +98,12 @@ Program::Program() : app_("Distance and inside/outside for geometry that is brok
   add_offset(app_, session_);
   add_samples(app_, session_);
   add_batch(app_, session_);
-  add_methods(app_, session_);
-  add_formats(app_, session_);
-  add_help(app_, session_);
-  add_completion(app_, session_);
   add_view(app_, session_);
   add_render(app_, session_);
+  add_methods(app_, session_);
+  add_formats(app_, session_);
+  add_completion(app_, session_);
+  add_help(app_, session_);
 }
 
 void Program::read(std::vector<std::string> arguments) {

@@ -92,6 +92,15 @@ void write_to_standard_output(const std::filesystem::path& path,
   if (!std::cout) fail(path, errno ? errno : EIO);
 }
 
+/// Throws where the folder of a file to be written is missing.
+void check_folder(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::path folder = path.parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder, error))
+    throw IoError("cannot write " + path.string() + ": there is no folder " + folder.string(),
+                  "cannot-write");
+}
+
 }  // namespace
 
 void write_atomically(const std::filesystem::path& path,
@@ -104,6 +113,7 @@ void write_atomically(const std::filesystem::path& path,
     write_stream(path, path.string(), body);
     return;
   }
+  check_folder(path);
   const std::filesystem::path resolved = std::filesystem::weakly_canonical(path, error);
   const std::filesystem::path& target = error ? path : resolved;
   Unfinished temporary(temporary_name(target));
@@ -119,10 +129,7 @@ void check_writable(const std::filesystem::path& path) {
   const auto status = std::filesystem::status(path, error);
   if (std::filesystem::is_directory(status)) fail(path, EISDIR);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return;
-  const std::filesystem::path folder = path.parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder, error))
-    throw IoError("cannot write " + path.string() + ": there is no folder " + folder.string(),
-                  "cannot-write");
+  check_folder(path);
   const std::filesystem::path resolved = std::filesystem::weakly_canonical(path, error);
   const Unfinished probe(temporary_name(error ? path : resolved));
   write_stream(path, probe.path(), [](std::ostream&) {});

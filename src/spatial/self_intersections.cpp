@@ -94,8 +94,10 @@ bool parted_by(const Triangle& s, const Triangle& t, int axis) {
 struct Bounds {
   Vec3 low = Vec3::Constant(infinity), high = -low;
   void include(const Bounds& b) {
-    low = low.cwiseMin(b.low);
-    high = high.cwiseMax(b.high);
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], b.low[axis]);
+      high[axis] = std::max(high[axis], b.high[axis]);
+    }
   }
   bool overlaps(const Bounds& b) const {
     return (low.array() <= b.high.array()).all() && (b.low.array() <= high.array()).all();

@@ -66,6 +66,7 @@ def test_completion(run: Run, mesh: Path) -> None:
     assert completed(mesh.parent, script, "littoral distance --method exa") == ["exact"]
     assert completed(mesh.parent, script, "littoral distance m --constraint lev") == ["level-sets"]
     assert completed(mesh.parent, script, "littoral completion z") == ["zsh"]
+    assert completed(mesh.parent, script, "littoral help r") == ["repair", "render"]
     for shell in ("zsh", "fish"):
         assert "curve-vertices" in run("completion", shell).stdout
     assert "bash" in run("completion", "bas", status=2).stderr

@@ -37,6 +37,7 @@ def test_lengths_in_per_cent_and_what_goes_together(run: Run, tmp_path: Path) ->
     assert "resolution" in run(*words, "--error", ".1", "--resolution", 24, status=2).stderr
     assert "smallest-part" in run(*words, "--smallest-part", "9", status=2).stderr
     assert "nan" in run(*words, "--error", "nan", status=2).stderr
+    assert "--error must be greater than 0" in run(*words, "--error", "0%", status=2).stderr
 
 
 def test_what_has_no_inside_becomes_a_wall(run: Run, tmp_path: Path) -> None:

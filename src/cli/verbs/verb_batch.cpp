@@ -13,6 +13,7 @@
 #include "cli/batch/job_list.h"
 #include "cli/program.h"
 #include "cli/verbs/verbs.h"
+#include "io/formats.h"
 #include "littoral/batch.h"
 #include "littoral/error.h"
 
@@ -152,12 +153,25 @@ Words words_of(const BatchJob& job, const std::filesystem::path& folder, const C
   return words;
 }
 
+/// Throws unless some verb writes files that end so.
+void check_extension(const std::string& to) {
+  static const io::Kinds written{io::Kind::surface, io::Kind::cloud,   io::Kind::volume,
+                                 io::Kind::tets,    io::Kind::sources, io::Kind::field,
+                                 io::Kind::table,   io::Kind::page,    io::Kind::picture};
+  if (!io::is_written_as("output" + to, written))
+    throw InputError(
+        "option to: no verb writes '" + to + "'; possible: " + io::written_extensions(written),
+        "option-value");
+}
+
 void JobMaker::check_options(const BatchJob& job) {
   if (!checked_.insert(job.options).second) return;
   Program fresh;
   BatchJob any = job;
   any.input = "input.obj";
   any.name = "output";
+  for (const std::string& word : job.options)
+    if (word.starts_with("--to=")) check_extension(word.substr(5));
   fresh.read(words_of(any, "", verb_named(fresh.app(), job.options.front()), arguments_.threads));
 }
 
@@ -254,6 +268,16 @@ void run_batch_verb(BatchArguments& arguments, Session& session) {
   if (summary.failed > 0) session.status = 1;
 }
 
+/// A number of bytes, but for those that forgot the unit.
+CLI::Validator enough_memory() {
+  return CLI::Validator(
+      [](const std::string& bytes) -> std::string {
+        if (bytes.size() > 6 || bytes.find_first_not_of('0') == std::string::npos) return "";
+        return bytes + " bytes are too few: units are MB and GB";
+      },
+      "");
+}
+
 }  // namespace
 
 void add_batch(CLI::App& program, Session& session) {
@@ -289,6 +313,7 @@ void add_batch(CLI::App& program, Session& session) {
   verb->add_option("--memory-limit", options.memory_limit,
                    "an input that needs more has failed: 800MB, 4GB; 0: none [default 0]")
       ->transform(CLI::AsSizeValue(true).description(""))
+      ->check(enough_memory())
       ->type_name("SIZE");
   number("--retry", options.retries, 0,
          "try what crashed, took too long or could not be written again so often [default 0]");

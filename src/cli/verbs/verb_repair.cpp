@@ -30,6 +30,8 @@ void run_repair(RepairArguments& arguments, Session& session) {
   const GridOptions grid = grid_request(arguments.space, size);
   options.grid = grid;
   options.error = parse_radius("error", arguments.error, size);
+  if (!arguments.error.empty() && !(options.error > 0))
+    throw InputError("option error must be greater than 0", "option-value");
   options.thicken = parse_radius("thicken", arguments.thicken, size);
   options.smallest_part = parse_radius("smallest-part", arguments.smallest_part, size);
   options.remesh = arguments.remesh;

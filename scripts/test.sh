@@ -275,7 +275,7 @@ run_beside() {
     case "$stage" in
       files | format | tools | docs) ;;
       *) for before in "${busy[@]}"; do
-           while [[ $before =~ ^(release|quick)$ && ! -f $logs/$before.result ]]; do sleep 1; done
+           while [[ $before =~ ^(release|quick)$ && ! -f $logs/main.built && ! -f $logs/$before.result ]]; do sleep 1; done
          done ;;
     esac
     run_stage "$stage" >/dev/null

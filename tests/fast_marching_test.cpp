@@ -289,6 +289,33 @@ TEST(FastMarching, SignsThatJumpAreCountedAndWarnedOf) {
   EXPECT_GE(test::size_named(report, "edges_where_the_sign_jumps"), 10);
 }
 
+TEST(FastMarching, VerticesThatHangOnByTheCurveHaveNoSideAndAreWarnedOf) {
+  // A square with a line along its diagonal, and a triangle at an end of it; or at another corner.
+  MatX3 diagonal(2, 3);
+  diagonal << 0, 0, 0, 1, 1, 0;
+  for (const bool at_the_end : {true, false}) {
+    const int n = 8, corner = at_the_end ? 0 : n;
+    PolygonSoup soup = test::grid_soup(n, n);
+    const int first = soup.n_vertices();
+    soup.points.conservativeResize(first + 2, 3);
+    const Vec3 at = soup.points.row(corner);
+    soup.points.row(first) = at - Vec3(0.2, 0.3, 0);
+    soup.points.row(first + 1) = at + Vec3(0.2, -0.3, 0);
+    test::add_triangle(soup, corner, first, first + 1);
+    Report report;
+    const VecX d =
+        test::geodesic(fast_marching, SurfaceMesh(soup), test::space_curve(diagonal), report);
+    std::string said;
+    for (const Warning& warning : report.warnings)
+      if (warning.code == "sign-uncertain") said += warning.text;
+    EXPECT_EQ(said.find("2 vertices are") != std::string::npos, at_the_end) << said;
+    EXPECT_EQ(said.empty(), !at_the_end) << said;
+    const double side = at_the_end ? 1 : -1;  // the corner is to the right of the line
+    EXPECT_GT(side * d[first], 0);
+    EXPECT_GT(side * d[first + 1], 0);
+  }
+}
+
 TEST(FastMarching, StopsWhenAsked) {
   const SurfaceMesh mesh(test::octasphere_soup(6));
   CancelToken token;

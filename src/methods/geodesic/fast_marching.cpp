@@ -107,9 +107,12 @@ class MarchingFront {
     march(task);
     // What only curves' own vertices reach, with no telling on which side, has its distance too.
     any_side_ = true;
+    const std::vector<char> before = fixed_;
     for (int v = 0; v < T_.n_vertices; ++v)
       if (fixed_[v] && on_curve_[v]) reach_from(v);
     march(task);
+    for (int v = 0; v < T_.n_vertices; ++v)
+      if (fixed_[v] && !before[v] && sign_[v] == 0) ++n_without_side_;
   }
 
   /// Signed; nodes on a curve and those that only unsigned sources reach are not negative.
@@ -120,6 +123,7 @@ class MarchingFront {
     return phi.array() + least_;
   }
   int n_unsplit() const { return stencils_.n_unsplit; }
+  int n_without_side() const { return n_without_side_; }
 
   /// Edges between vertices of different sign that are together farther from the sources than from
   /// each other: no curve crosses them.
@@ -249,7 +253,8 @@ class MarchingFront {
   std::vector<char> on_curve_;       // of those that are signed
   std::vector<char> fixed_;
   int n_fixed_ = 0;
-  bool any_side_ = false;  // also where a curve's side cannot be told
+  int n_without_side_ = 0;  // vertices of which it cannot be told on which side of curves they are
+  bool any_side_ = false;   // also where a curve's side cannot be told
   FallingKeys queue_;
 };
 
@@ -267,6 +272,11 @@ VecX fast_marching(const IntrinsicTriangulation& T, const TriangleSources& sourc
                 "the sign jumps at " + counted(jumps, "edge", "edges") +
                     " that no curve crosses: curves have gaps or ends inside, or contradict each "
                     "other. Method auto closes gaps");
+  if (const int n = front.n_without_side(); n > 0)
+    report.warn("sign-uncertain",
+                "it cannot be told on which side of the curve " +
+                    counted(n, "vertex is", "vertices are") +
+                    ": only its own vertices lead there. The distance is positive");
   return finalize_field(T.component, T.n_components, T.unit, sources.reached, front.distance(),
                         report);
 }

@@ -135,16 +135,20 @@ std::vector<std::string> doubtful_lists(const CLI::App& program,
   return found;
 }
 
-const CLI::App& verb_named(const CLI::App& program, const std::string& name) {
+std::vector<std::string> verb_names(const CLI::App& program) {
   std::vector<std::string> names;
-  for (const CLI::App* verb : verbs_of(program)) {
+  for (const CLI::App* verb : verbs_of(program)) names.push_back(verb->get_name());
+  return names;
+}
+
+const CLI::App& verb_named(const CLI::App& program, const std::string& name) {
+  for (const CLI::App* verb : verbs_of(program))
     if (verb->get_name() == name) return *verb;
-    names.push_back(verb->get_name());
-  }
   if (name == "version")
     throw InputError("there is no verb 'version'; did you mean '--version'?", "unknown-name");
-  throw InputError("there is no verb '" + name + "'" + instead_of(name, names, "verbs"),
-                   "unknown-name");
+  throw InputError(
+      "there is no verb '" + name + "'" + instead_of(name, verb_names(program), "verbs"),
+      "unknown-name");
 }
 
 namespace {

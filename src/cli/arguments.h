@@ -40,6 +40,7 @@ std::string refused_text(const CLI::ParseError& error, CLI::App& program,
 /// All verbs in their order.
 std::vector<CLI::App*> verbs_of(CLI::App& program);
 std::vector<const CLI::App*> verbs_of(const CLI::App& program);
+std::vector<std::string> verb_names(const CLI::App& program);
 /// The verb of this name. Throws InputError naming the nearest.
 const CLI::App& verb_named(const CLI::App& program, const std::string& name);
 

@@ -10,10 +10,9 @@ namespace littoral::cli {
 
 namespace {
 
-std::string verb_names(const CLI::App& program) {
+std::string spaced_verb_names(const CLI::App& program) {
   std::string names;
-  for (const CLI::App* verb : verbs_of(program))
-    names += (names.empty() ? "" : " ") + verb->get_name();
+  for (const std::string& name : verb_names(program)) names += (names.empty() ? "" : " ") + name;
   return names;
 }
 
@@ -53,7 +52,7 @@ std::string bash_script(CLI::App& program) {
          "  local word=\"${COMP_WORDS[COMP_CWORD]}\" options= words=\n"
          "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
          "    COMPREPLY=($(compgen -W \"" +
-         verb_names(program) +
+         spaced_verb_names(program) +
          "\" -- \"$word\"))\n    return\n  fi\n"
          "  case \"${COMP_WORDS[1]}\" in\n" +
          option_cases(program, "options=\"", "\"") +
@@ -74,7 +73,7 @@ std::string bash_script(CLI::App& program) {
 std::string zsh_script(CLI::App& program) {
   return "#compdef littoral\n_littoral() {\n"
          "  if (( CURRENT == 2 )); then\n    compadd -- " +
-         verb_names(program) +
+         spaced_verb_names(program) +
          "\n    return\n  fi\n"
          "  if [[ $words[CURRENT] != -* ]]; then\n"
          "    local place=$words[2]\n"

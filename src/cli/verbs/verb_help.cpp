@@ -93,10 +93,8 @@ void help(const HelpArguments& arguments, CLI::App& program) {
 void add_help(CLI::App& program, Session& session) {
   CLI::App* verb = program.add_subcommand("help", "all verbs, or one with its options");
   auto arguments = std::make_shared<HelpArguments>();
-  std::vector<std::string> verbs;
-  for (const CLI::App* each : verbs_of(std::as_const(program))) verbs.push_back(each->get_name());
   verb->add_option("VERB", arguments->verb, "the verb to explain")
-      ->check(among(verbs))
+      ->check(among(verb_names(program)))
       ->type_name("");
   verb->add_flag("--markdown", arguments->markdown,
                  "with their options, as tables for the documentation");

@@ -41,7 +41,6 @@ tidy:  ## clang-tidy over the library and the program
 
 wheel:  ## the Python package as a wheel, in build/dist (PROCESSOR=aarch64 for another processor's)
 	scripts/setup.sh build
-	scripts/setup.sh python
 	$(if $(filter aarch64,$(PROCESSOR)),scripts/setup.sh aarch64)
 	scripts/make_wheel.sh build/dist $(PROCESSOR) build/wheel-$(PROCESSOR)
 

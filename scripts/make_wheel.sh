@@ -9,6 +9,7 @@ folder=$1
 processor=$2
 build=$3
 shift 3
+scripts/setup.sh wheel
 raw=$(mktemp -d)
 trap 'rm -rf "$raw"' EXIT
 settings=(-Cbuild-dir="$build" -Ccmake.define.LITTORAL_MANYLINUX=ON "$@")

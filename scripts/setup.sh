@@ -6,6 +6,7 @@
 #   scripts/setup.sh tidy    build, and clang-tidy
 #   scripts/setup.sh aarch64 test, and what compiles and runs programs for 64-bit ARM
 #   scripts/setup.sh python  the Python environment in build/venv alone
+#   scripts/setup.sh wheel   python, and what makes the wheel
 #   scripts/setup.sh docs    python, and what reads the headers for the site
 # Does nothing, quickly, when all of it is there. Works as root or through sudo.
 set -euo pipefail
@@ -103,9 +104,10 @@ python_environment() {
   rm -rf build/venv
   mkdir -p build
   "$python" -m venv build/venv
-  build/venv/bin/python -m pip install --quiet --disable-pip-version-check -r requirements-dev.txt
+  pip_install requirements-dev.txt
   echo "$stamp" >build/venv/stamp
 }
+pip_install() { build/venv/bin/python -m pip install --quiet --disable-pip-version-check -r "$1"; }
 
 case "${1:-}" in
   build) install_packages "${build_packages[@]}" $(node_packages) ;;
@@ -132,9 +134,18 @@ case "${1:-}" in
     install_packages python3-venv
     python_environment
     ;;
+  wheel)
+    install_packages python3-venv
+    python_environment
+    if ! cmp -s requirements-wheel.txt build/venv/requirements-wheel.txt; then
+      echo "setup: what makes the wheel, into build/venv"
+      pip_install requirements-wheel.txt
+      cp requirements-wheel.txt build/venv
+    fi
+    ;;
   docs)
     install_packages python3-venv doxygen
     python_environment
     ;;
-  *) die "usage: scripts/setup.sh build|test|web|tidy|aarch64|python|docs" ;;
+  *) die "usage: scripts/setup.sh build|test|web|tidy|aarch64|python|wheel|docs" ;;
 esac

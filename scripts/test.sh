@@ -76,7 +76,14 @@ stage_format() {
     "$venv/ruff" check . && "$venv/ruff" format --check . && "$venv/mypy"
 }
 
-stage_tools() { "$venv/python" -m pytest -q tests/tools; }  # tests of the checks themselves
+# Where a stage of `make check` is all, Python's tests that are marked as slow are left out, too.
+run_pytest() {
+  local selected=()
+  [ "$main" = release ] || selected=(-m "not slow")
+  "$venv/python" -m pytest -q -rs ${selected[@]+"${selected[@]}"} "$@"
+}
+
+stage_tools() { run_pytest tests/tools; }  # tests of the checks themselves
 
 stage_docs() { "$venv/mkdocs" build --strict --quiet --site-dir build/site; }
 
@@ -85,7 +92,7 @@ stage_quick() { build_main && run_tests "$main/tests/littoral_tests" --without "
 stage_release() { release_tests && run_tests release/tests/littoral_tests; }
 
 stage_cli() {
-  build_main && LITTORAL="$PWD/build/release/littoral" "$venv/python" -m pytest -q -rs tests/cli
+  build_main && LITTORAL="$PWD/build/release/littoral" run_pytest tests/cli
 }
 
 # The Python package as it lies in the build: its stubs, and its tests; arguments: of pytest.
@@ -94,13 +101,12 @@ stage_package() {
   build_main &&
     PYTHONPATH="$package" "$venv/python" -m nanobind.stubgen -q -m littoral._core -o build/_core.pyi &&
     "$venv/ruff" format -q --config 'extend-exclude = []' build/_core.pyi && diff build/_core.pyi python/littoral/_core.pyi &&
-    LITTORAL="$PWD/build/$main/littoral" PYTHONPATH="$package" "$venv/python" -m pytest -q -rs python/tests "$@"
+    LITTORAL="$PWD/build/$main/littoral" PYTHONPATH="$package" run_pytest python/tests "$@"
 }
 
 # The code on the pages of the documentation.
 stage_pages() {
-  build_main && LITTORAL="$PWD/build/$main/littoral" PYTHONPATH="$PWD/build/$main/python" \
-    "$venv/python" -m pytest -q -rs tests/pages
+  build_main && LITTORAL="$PWD/build/$main/littoral" PYTHONPATH="$PWD/build/$main/python" run_pytest tests/pages
 }
 
 # The wheel in an empty environment; then of the package's tests those that need more than that.

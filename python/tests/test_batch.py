@@ -300,6 +300,7 @@ def counting() -> Callable[[int, str], int]:
     return counted
 
 
+@pytest.mark.slow
 def test_dask_workers_may_die(tmp_path: Path) -> None:
     distributed = pytest.importorskip("distributed")
     from littoral.dask import batch

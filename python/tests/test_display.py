@@ -58,6 +58,7 @@ def pixels(picture: bytes) -> np.ndarray:
     return np.asarray(pytest.importorskip("PIL.Image").open(io.BytesIO(picture)))
 
 
+@pytest.mark.slow
 def test_tets_are_drawn_and_cut_open(box, tmp_path):
     depth = littoral.tet_distance(box, boundary=True)
     assert depth.values.max() == pytest.approx(0.5)

@@ -32,7 +32,15 @@ def is_numbers(value):
 
 @pytest.mark.parametrize(
     "name",
-    ["potpourri3d", "libigl", "pygeodesic", "trimesh", "mesh_to_sdf", "signedheat3d", "Open3D"],
+    [
+        "potpourri3d",
+        "libigl",
+        "pygeodesic",
+        "trimesh",
+        "mesh_to_sdf",
+        pytest.param("signedheat3d", marks=pytest.mark.slow),
+        "Open3D",
+    ],
 )
 def test_calls_of_other_packages_give_what_the_table_says(name):
     pytest.importorskip("scipy")

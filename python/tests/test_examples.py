@@ -93,6 +93,7 @@ def test_crossed_bars_overlap_though_no_vertex_is_inside(tmp_path):
     assert float(said.split()[1][:-1]) == pytest.approx(0.5 * side, abs=0.05 * side)
 
 
+@pytest.mark.slow
 def test_clusters_of_a_figure_are_its_limbs(tmp_path):
     run("figure.py", tmp_path / "figure.ply")
     figure = littoral.read(tmp_path / "figure.ply")

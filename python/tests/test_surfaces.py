@@ -267,6 +267,7 @@ def test_progress_is_told_and_can_stop(sphere):
         littoral.distance_matrix(sphere, range(600), progress=stop)
 
 
+@pytest.mark.slow
 def test_an_interrupt_stops_a_long_call():
     mesh = littoral.examples.sphere(5)
     timer = threading.Timer(0.5, signal.raise_signal, [signal.SIGINT])
@@ -276,6 +277,7 @@ def test_an_interrupt_stops_a_long_call():
     littoral.distance(mesh, points=0)  # and the next one runs
 
 
+@pytest.mark.slow
 def test_many_calls_do_not_grow(square):
     solver = littoral.DistanceSolver(square, method="signed-heat")
     sdf = littoral.SDF(square)

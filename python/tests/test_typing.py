@@ -17,6 +17,7 @@ def look(tets: littoral.TetMesh, mesh: littoral.Mesh) -> None:
 """
 
 
+@pytest.mark.slow
 def test_distance_is_typed_by_what_it_runs_on(tmp_path: Path) -> None:
     pytest.importorskip("mypy")
     (tmp_path / "look.py").write_text(SNIPPET)

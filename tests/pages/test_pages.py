@@ -11,11 +11,19 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 PRINTED = {"verbs.md", "formats.md", "support.md"}
+SLOW = {
+    "docs/gallery/index.md",
+    "docs/gallery/spot.md",
+    "docs/guides/command_line.md",
+    "docs/tutorials/9-ten-jobs.md",
+}
 
 
-def pages() -> list[str]:
-    found = [page for page in sorted((ROOT / "docs").rglob("*.md")) if page.name not in PRINTED]
-    return [page.relative_to(ROOT).as_posix() for page in [ROOT / "README.md", *found]]
+def pages() -> list[object]:
+    files = [page for page in sorted((ROOT / "docs").rglob("*.md")) if page.name not in PRINTED]
+    names = [page.relative_to(ROOT).as_posix() for page in [ROOT / "README.md", *files]]
+    assert set(names) >= SLOW
+    return [pytest.param(name, marks=[pytest.mark.slow] if name in SLOW else []) for name in names]
 
 
 @pytest.mark.parametrize("page", pages())

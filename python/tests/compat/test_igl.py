@@ -202,6 +202,7 @@ def test_the_names_are_the_same(real):
     assert all(hasattr(real, name) for name in igl.__all__)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sign", TYPES)
 @pytest.mark.parametrize("name", ["spot", "broken", "ball"])
 def test_signed_distance_side_by_side(real, name, sign, shapes):
@@ -224,6 +225,7 @@ def test_signed_distance_side_by_side(real, name, sign, shapes):
     assert [v.shape for v in igl.signed_distance(x[:0], V, F)] == [(0,), (0,), (0, 3), (0, 0)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["spot", "broken", "ball"])
 def test_winding_and_nearest_side_by_side(real, name, shapes):
     V, F, x = shape_of(name, shapes)

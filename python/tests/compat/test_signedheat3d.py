@@ -142,6 +142,7 @@ def test_tets_around_a_sphere(tets, sphere):
     assert np.abs(free - exact).mean() < 0.15 and np.abs(free - phi).max() > 1e-6
 
 
+@pytest.mark.slow
 def test_the_zero_set_follows_the_input_at_any_resolution(tets, spot):
     for nodes in (4, 8):
         phi = tets.compute_distance_to_mesh(*spot, {"resolution": [nodes] * 3})

@@ -135,6 +135,7 @@ def theirs(request, spot, sphere):
     return mesh, x
 
 
+@pytest.mark.slow
 def test_side_by_side(theirs):
     from trimesh import proximity
 

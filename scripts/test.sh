@@ -76,7 +76,7 @@ stage_format() {
     "$venv/ruff" check . && "$venv/ruff" format --check . && "$venv/mypy"
 }
 
-# Where a stage of `make check` is all, Python's tests that are marked as slow are left out, too.
+# Where stages of `make check` are all, Python's tests that are marked as slow are left out.
 run_pytest() {
   local selected=()
   [ "$main" = release ] || selected=(-m "not slow")

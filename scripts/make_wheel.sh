@@ -27,5 +27,11 @@ case $(ls "$raw/repaired") in
   *manylinux_2_1[0-9]_"$processor"* | *manylinux_2_2[0-8]_"$processor"*) ;;
   *) echo "not for glibc 2.28: $(ls "$raw/repaired")" >&2; exit 1 ;;
 esac
+# Wheels are built below a temporary folder; what is loaded from one may be anybody's.
+python3 -m zipfile -e "$raw"/repaired/*.whl "$raw/unpacked"
+if grep -rlF "$(python3 -c 'import tempfile; print(tempfile.gettempdir())')/tmp" "$raw/unpacked" >&2; then
+  echo "the files above name a temporary folder" >&2
+  exit 1
+fi
 mkdir -p "$folder"
 mv "$raw"/repaired/* "$folder"

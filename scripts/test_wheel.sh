@@ -11,13 +11,14 @@ out="$PWD/build/wheel-test"
 rm -rf "$out"
 mkdir -p "$out"
 
-# What the build was configured with stays as it is: its objects are linked, nothing is compiled twice.
-kept=()
-for name in OPENVDB TESTS; do
-  value=$(sed -n "s/^LITTORAL_$name:[A-Z]*=//p" "$build/CMakeCache.txt")
-  kept+=("-Ccmake.define.LITTORAL_$name=$value")
+# The build stays as it is, for other stages read it: a folder of the wheel's own links its library.
+# What compiles is the same, so that ccache has all of it.
+kept=("-Ccmake.define.LITTORAL_LIBRARY=$PWD/$build/liblittoral.a")
+for name in CMAKE_CXX_COMPILER LITTORAL_WERROR; do
+  value=$(sed -n "s/^$name:[A-Z]*=//p" "$build/CMakeCache.txt")
+  kept+=("-Ccmake.define.$name=$value")
 done
-scripts/make_wheel.sh "$out" "$(uname -m)" "$build" "${kept[@]}"
+scripts/make_wheel.sh "$out" "$(uname -m)" "$build-wheel" "${kept[@]}"
 wheel=$(ls "$out"/littoral-*.whl)
 case "$wheel" in *-cp310-abi3-*) ;; *) echo "$wheel is not for the stable ABI" >&2; exit 1 ;; esac
 if python3 -m zipfile -l "$wheel" | grep -E '\.(a|h|cmake)  |lib64|/bin/'; then

@@ -23,7 +23,9 @@ const VdbModule* find_module() {
   if (const fs::path folder = own_folder(); !folder.empty())
     places = {folder, folder.parent_path(),
               (folder / LITTORAL_MODULES_FROM_PROGRAM).lexically_normal(), folder / "littoral"};
+#ifdef LITTORAL_MODULES
   places.emplace_back(LITTORAL_MODULES);
+#endif
   for (const fs::path& place : places) {
     std::error_code none;
     const fs::path file = place / file_name;

@@ -1,12 +1,15 @@
-// Where paths bend: at vertices with more than a full turn, and where triangles do not close up.
+// What meets at an edge; where paths bend: at vertices with more than a full turn, and where
+// triangles do not close up.
 
 #include "methods/geodesic/exact_polyhedral_pages.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "domain/mesh/surface_mesh.h"
 #include "geodesic_helpers.h"
@@ -15,6 +18,8 @@
 
 namespace littoral {
 namespace {
+
+using ::testing::ElementsAreArray;
 
 /// n triangles around vertex 0, whose other corners lie on a circle around it, up and down by
 /// turns.
@@ -44,6 +49,59 @@ TEST(PolyhedralPages, PathsBendBehindSaddlesAndWhereTrianglesDoNotCloseUp) {
     EXPECT_EQ(bends_at_0(fan(n, 0.3, 0.3)), PolyhedralPages::never) << n;
     EXPECT_EQ(bends_at_0(fan(n, 0.3, -0.3)), PolyhedralPages::behind) << n;
     EXPECT_EQ(bends_at_0(fan(n, 0, 0, false)), PolyhedralPages::anywhere) << n;
+  }
+}
+
+/// n triangles on a common edge, from vertex 0 to 1, every other one turned.
+PolygonSoup triangles_on_an_edge(int n) {
+  PolygonSoup soup;
+  soup.points = MatX3::Zero(n + 2, 3);
+  soup.points(1, 2) = 1;
+  for (int k = 0; k < n; ++k) {
+    soup.points.row(k + 2) = Vec3(std::cos(k), std::sin(k), 0.3);
+    test::add_triangle(soup, k % 2, 1 - k % 2, k + 2);
+  }
+  return soup;
+}
+
+TEST(PolyhedralPages, SidesAtAnEdgeAreThoseOfItsTriangles) {
+  for (const int n : {1, 2, 3, 4, 9}) {
+    Report report;
+    const IntrinsicTriangulation T =
+        intrinsic_triangulation(SurfaceMesh(triangles_on_an_edge(n)), report);
+    const PolyhedralPages pages(T);
+    for (int e = 0; e < T.n_edges(); ++e) {
+      std::vector<int> sides;
+      for (int side = 0; side < 3 * T.n_faces(); ++side)
+        if (T.side_edge(side / 3, side % 3) == e) sides.push_back(side);
+      ASSERT_THAT(pages.at(e), ElementsAreArray(sides)) << n;
+      const PolyhedralPages::Edge& edge = pages.edges[e];
+      EXPECT_EQ(edge.n_pages(), sides.size());
+      for (std::size_t page = 0; page < sides.size(); ++page) {
+        EXPECT_EQ(pages.page_of(edge, sides[page]), page);
+        EXPECT_EQ(pages.leads_on(edge, sides[page]), sides.size() > 1);
+      }
+    }
+    for (int f = 0; f < T.n_faces(); ++f)
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_EQ(pages.triangles[f].length[k], T.length(f, k));
+        EXPECT_EQ(pages.triangles[f].vertex[k], T.faces(f, k));
+        EXPECT_EQ(pages.triangles[f].edge[k], T.side_edge(f, k));
+        EXPECT_EQ(pages.triangles[f].along[k], T.along(f, k));
+      }
+  }
+}
+
+TEST(PolyhedralPages, OfTrianglesWithTheSameEdgesOnlyTheFirstIsEntered) {
+  PolygonSoup soup = triangles_on_an_edge(2);
+  test::add_triangle(soup, 1, 0, 2);  // as the first
+  Report report;
+  const IntrinsicTriangulation T = intrinsic_triangulation(SurfaceMesh(soup), report);
+  const PolyhedralPages pages(T);
+  for (int k = 0; k < 3; ++k) {
+    const PolyhedralPages::Edge& edge = pages.edges[T.side_edge(2, k)];
+    EXPECT_EQ(pages.page_of(edge, 6 + k), Window::no_page);
+    EXPECT_TRUE(pages.leads_on(edge, 6 + k));
   }
 }
 

@@ -312,8 +312,7 @@ TEST(RayCrossing, PathsThatBendLeaveBehindTheVertex) {
       RayCrossing crossing(search);
       crossing.leave_vertex(0);
       double covered = 0;
-      for (std::size_t b = 0; b < crossing.n_batches(); ++b) {
-        const RayCrossing::Batch& batch = crossing.batch(b);
+      for (const RayCrossing::Batch& batch : crossing.batches()) {
         for (std::size_t i = 0; i < batch.windows.size(); ++i) {
           const Window w = batch.windows[i];
           EXPECT_EQ(w.source, 7);

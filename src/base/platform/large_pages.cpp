@@ -28,6 +28,12 @@ thread_local Mapping spare;
 
 }  // namespace
 
+void prefer_large_pages(void* begin, std::size_t bytes) {
+#if defined(MADV_HUGEPAGE)
+  (void)madvise(begin, bytes / large_page * large_page, MADV_HUGEPAGE);  // small pages do as well
+#endif
+}
+
 KeepLargePages::KeepLargePages() { ++keepers; }
 
 KeepLargePages::~KeepLargePages() {
@@ -35,7 +41,7 @@ KeepLargePages::~KeepLargePages() {
 }
 
 std::shared_ptr<void> large_pages(std::size_t bytes) {
-  constexpr std::size_t page = std::size_t(1) << 21;
+  constexpr std::size_t page = large_page;
   if (bytes < 2 * page) return nullptr;
   // So that it can begin where a large page does; what is to be kept has room for a little more.
   const std::size_t least = bytes + page, whole = least + (keepers > 0 ? bytes / 8 : 0);
@@ -55,13 +61,12 @@ std::shared_ptr<void> large_pages(std::size_t bytes) {
   });
   const std::size_t into = std::size_t(-reinterpret_cast<std::uintptr_t>(mapping.at)) % page;
   void* const begin = static_cast<char*>(mapping.at) + into;
-#if defined(MADV_HUGEPAGE)
-  if (!again) (void)madvise(begin, bytes / page * page, MADV_HUGEPAGE);  // small pages do as well
-#endif
+  if (!again) prefer_large_pages(begin, bytes);
   return {std::move(all), begin};
 }
 
 #else
+void prefer_large_pages(void*, std::size_t) {}
 std::shared_ptr<void> large_pages(std::size_t) { return nullptr; }
 KeepLargePages::KeepLargePages() = default;
 KeepLargePages::~KeepLargePages() = default;

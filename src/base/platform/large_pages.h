@@ -6,6 +6,11 @@
 
 namespace littoral {
 
+constexpr std::size_t large_page = std::size_t(1) << 21;  // bytes
+
+/// Memory that begins where a large page does shall come in such as it is touched.
+void prefer_large_pages(void* begin, std::size_t bytes);
+
 /// Memory that the system hands out as it is touched, in large pages where it has them; null where
 /// it is too little for that to pay, or the system has no such memory. What is in it is left from
 /// before where memory is kept, or zero.

@@ -12,11 +12,12 @@
 namespace littoral {
 
 /// The windows of an edge.
-struct WindowList {
-  WindowBlock windows;     // from tail to head, do not overlap
-  double due = infinity;   // when the open ones are to go on
-  bool none_open = false;  // all have gone on, whatever they say themselves
-  double error = 0;        // of distances: by how much merged windows may misstate them
+struct alignas(32) WindowList {
+  WindowBlock windows;      // from tail to head, do not overlap
+  double error = 0;         // of distances: by how much merged windows may misstate them
+  bool none_open = false;   // all have gone on, whatever they say themselves
+  bool waits = false;       // the open ones, to go on
+  bool is_watched = false;  // until the front has passed
 };
 
 /// For every edge a list of windows from tail to head that do not overlap: the lower envelope of
@@ -70,7 +71,7 @@ class EdgeEnvelopes {
       n_held_ += double(n);
       spare.give(std::move(all));
       all = std::move(batch);
-      return list.due < infinity ? 0 : window_kernels().least(all, 0, n);
+      return list.waits ? 0 : window_kernels().least(all, 0, n);
     }
     const double *b0 = batch.column(WindowBlock::b0), *b1 = batch.column(WindowBlock::b1);
     const double start = all.column(WindowBlock::b0)[0],
@@ -80,7 +81,7 @@ class EdgeEnvelopes {
     while (last != first && b0[last - 1] >= end) --last;
     for (std::size_t i = first; i < last; ++i)
       least = std::min(least, insert(all, length, batch[i]));
-    if (list.due < infinity)
+    if (list.waits)
       least = 0;
     else
       least = std::min(

@@ -11,6 +11,7 @@
 #include "base/option_table.h"
 #include "base/thread_crew.h"
 #include "methods/geodesic/ray_crossing.h"
+#include "methods/geodesic/wave_queue.h"
 #include "methods/heat/finalize.h"
 
 namespace littoral {
@@ -19,11 +20,9 @@ namespace {
 
 /// How many triangles paths run straight through after each time the limit on windows is met.
 constexpr std::array<int, 4> straight = {Window::deep + 1, 16, 4, 0};
-constexpr double most_held = 3e7;  // windows, 2 GB
-constexpr double together_share =
-    0.5;                               // of the wait of an edge: what is due until then goes on too
+constexpr double most_held = 3e7;      // windows, 2 GB
 constexpr double most_together = 3e4;  // windows
-constexpr double worth_threads = 300;  // windows to carry on; four times as many to put away
+constexpr double worth_threads = 300;  // windows
 
 class Front {
  public:
@@ -36,18 +35,18 @@ class Front {
   void run(const std::vector<PolyhedralStart>& starts, const Task& task) {
     double steps = 0, next_check = 0;
     for (std::size_t started = 0;;) {
-      while (started < starts.size() &&
-             (queue_.empty() || starts[started].value <= queue_.front().key))
+      while (started < starts.size() && (queue_.empty() || starts[started].value <= queue_.least()))
         begin(starts[started++]);
       if (queue_.empty()) break;
-      const double now = queue_.front().key, load = collect();
+      now_ = queue_.least();
+      const double load = collect();
+      if (together_.empty()) continue;
       steps += double(together_.size());
       if (steps + windows() > next_check) {
         task.checkpoint(double(n_reached_) / T_.n_vertices);
         next_check = steps + windows() + 4096;
       }
       go_on(load);
-      forget_passed(now);
       const bool full = windows() > budget_ || held() > most_held * double(1 + relaxed_);
       if (full && relaxed_ + 1 < straight.size()) relax();
     }
@@ -71,13 +70,9 @@ class Front {
   double exact_within() const { return exact_within_; }
 
  private:
-  struct Entry {
-    double key;
-    int id;      // of an edge with open windows; -1 - vertex
-    float wait;  // of the edge
-    bool operator<(const Entry& other) const {
-      return key > other.key || (key == other.key && id > other.id);
-    }
+  struct Passing {
+    double when;  // the front has passed the edge, as far as is known: perhaps later than that
+    int edge;
   };
 
   double held() const {
@@ -92,12 +87,8 @@ class Front {
       crew_[0]->leave_source(start);
       settle(1, 0);
     } else if (offer({start.vertex, start.value, start.source, {}, 0})) {
-      push({start.value, -1 - start.vertex, 0});
+      wait_at_vertex(start.vertex);
     }
-  }
-  void push(Entry entry) {
-    queue_.push_back(entry);
-    std::push_heap(queue_.begin(), queue_.end());
   }
   bool offer(const RayCrossing::Offer& better) {
     const auto& [v, distance, source, arrival, error] = better;
@@ -110,131 +101,139 @@ class Front {
     return true;
   }
 
-  /// Takes from the queue what goes on together: what is due before anything of it can have changed
-  /// the rest by much. The number of windows.
+  /// Takes from the queue what goes on together. About how many windows that are.
   double collect() {
     together_.clear();
-    double load = 0, until = infinity;
-    std::size_t n_seen = 0;
-    const auto see = [&] {
-      for (; n_seen < together_.size(); ++n_seen) {
-        if (together_[n_seen] < 0) continue;
-        WindowList& list = search_.lists[together_[n_seen]];
-        list.due = infinity;
-        load += double(list.windows.size());
-      }
-    };
-    while (!queue_.empty() && queue_.front().key <= until && load < most_together) {
-      const auto [key, id, wait] = queue_.front();
-      std::pop_heap(queue_.begin(), queue_.end());
-      queue_.pop_back();
-      if (id < 0) {
-        if (key > search_.distance[-1 - id]) continue;
-        for (const int side : search_.pages.around(-1 - id))
-          until = std::min(until, key + together_share * wait_of(T_.side_edge(side / 3, side % 3)));
-      } else {
-        __builtin_prefetch(&search_.lists[id], 1);
-        until = std::min(until, key + together_share * double(wait));
-      }
-      together_.push_back(id);
-      if (together_.size() == n_seen + 32) see();
-    }
-    see();
-    return load;
+    const std::size_t most = std::size_t(most_together / windows_each_) + 1;
+    queue_.take_wave([&](const WaveQueue::Entry& entry) {
+      if (together_.size() >= most) return false;
+      const bool is_old = entry.id < 0 && entry.key > search_.distance[-1 - entry.id];
+      if (!is_old) together_.push_back(entry.id);
+      return true;
+    });
+    return double(together_.size()) * windows_each_;
   }
-  double wait_of(int edge) const { return search_.pages.edges[edge].wait; }
 
   /// Lets all that was collected go on. Nobody sees what another of them sends: so they can do it
   /// at the same time, and the answer is the same whether they do or not.
   void go_on(double load) {
     const std::size_t n = together_.size(), n_threads = std::size_t(threads_.size());
-    const std::size_t parts =
-        load > worth_threads && n_threads > 1 ? std::min<std::size_t>(n, 4 * n_threads) : 1;
+    const std::size_t most = n_threads > 1 && load > worth_threads ? 4 * n_threads : 1;
+    const std::size_t parts = std::min({n, most, RayCrossing::n_shares});
     while (crew_.size() < parts) crew_.push_back(std::make_unique<RayCrossing>(search_));
     threads_.run(parts, [&](std::size_t part) {
       RayCrossing& member = *crew_[part];
       member.clear();
       const std::size_t end = (part + 1) * n / parts;
       for (std::size_t i = part * n / parts; i < end; ++i) {
-        for (int step = 0; step < 3; ++step)
-          if (i + 3 - step < end && together_[i + 3 - step] >= 0)
-            member.fetch(together_[i + 3 - step], step);
+        for (int step = 0; step < RayCrossing::n_fetch_steps; ++step) {
+          const std::size_t ahead = i + std::size_t(RayCrossing::n_fetch_steps - step);
+          if (ahead < end) fetch(member, together_[ahead], step);
+        }
         if (together_[i] < 0)
           member.leave_vertex(-1 - together_[i]);
         else
           member.go_on(together_[i]);
       }
     });
+    double n_windows = 0;
+    for (std::size_t part = 0; part < parts; ++part) n_windows += double(crew_[part]->n_gone_on());
+    windows_each_ = std::max(1.0, n_windows / double(n));
     settle(parts, load);
-    for (const int id : together_)
-      if (id >= 0) gone_on_.push_back({passed(id), id});
+  }
+
+  static void fetch(const RayCrossing& member, int id, int step) {
+    if (id < 0)
+      member.fetch_vertex(-1 - id, step);
+    else
+      member.fetch(id, step);
+  }
+
+  void fetch_vertex(int v) const {
+    __builtin_prefetch(&search_.distance[v]);
+    __builtin_prefetch(&search_.nearest[v]);
+    __builtin_prefetch(&search_.arrival[v]);
+    __builtin_prefetch(&search_.error[v]);
   }
 
   /// Puts what the first members of the crew have collected where it belongs.
   void settle(std::size_t parts, double load) {
-    for (std::size_t part = 0; part < parts; ++part)
-      for (const RayCrossing::Offer& o : crew_[part]->offers())
-        if (offer(o) && search_.pages.bends[o.vertex]) push({o.distance, -1 - o.vertex, 0});
-    const std::size_t n = load > 4 * worth_threads ? std::min<std::size_t>(parts, 16) : 1;
-    threads_.run(n, [&](std::size_t share) {
-      for (std::size_t part = 0; part < parts; ++part)
-        for (std::size_t i = 0; i < crew_[part]->n_batches(); ++i) {
-          RayCrossing::Batch& batch = crew_[part]->batch(i);
-          if (i + 4 < crew_[part]->n_batches()) {
-            __builtin_prefetch(&search_.lists[crew_[part]->batch(i + 4).edge]);
-            __builtin_prefetch(&search_.pages.edges[crew_[part]->batch(i + 4).edge]);
-          }
-          if (std::size_t(batch.edge) % n != share) continue;
-          double& error = search_.lists[batch.edge].error;
-          error = std::max(error, batch.error);
-          batch.least =
-              crew_[share]->envelopes.take(search_.lists[batch.edge], std::move(batch.windows),
-                                           search_.pages.edges[batch.edge].length);
+    for (std::size_t part = 0; part < parts; ++part) {
+      const std::vector<RayCrossing::Offer>& offers = crew_[part]->offers();
+      for (std::size_t i = 0; i < offers.size(); ++i) {
+        if (i + 6 < offers.size()) fetch_vertex(offers[i + 6].vertex);
+        const RayCrossing::Offer& o = offers[i];
+        if (offer(o) && search_.pages.bends[o.vertex]) wait_at_vertex(o.vertex);
+      }
+    }
+    // As many as have sent, so that the memory of windows that one gets another gives.
+    const std::size_t workers = load > worth_threads ? parts : 1;
+    threads_.run(workers, [&](std::size_t worker) {
+      std::vector<RayCrossing::Batch*>& mine = to_take_[worker];
+      mine.clear();
+      for (std::size_t share = worker; share < RayCrossing::n_shares; share += workers)
+        for (std::size_t part = 0; part < parts; ++part)
+          for (const int i : crew_[part]->batches_of(share)) mine.push_back(&crew_[part]->batch(i));
+      for (std::size_t i = 0; i < mine.size(); ++i) {
+        if (i + 6 < mine.size()) {
+          __builtin_prefetch(&search_.lists[mine[i + 6]->edge]);
+          __builtin_prefetch(&search_.pages.edges[mine[i + 6]->edge]);
         }
+        if (i + 3 < mine.size()) search_.lists[mine[i + 3]->edge].windows.fetch();
+        take(*mine[i], crew_[worker]->envelopes);
+      }
+      for (std::size_t share = worker; share < RayCrossing::n_shares; share += workers)
+        forget_passed(watched_[share], *crew_[worker]);
     });
     for (std::size_t part = 0; part < parts; ++part)
-      for (std::size_t i = 0; i < crew_[part]->n_batches(); ++i) {
-        const RayCrossing::Batch& batch = crew_[part]->batch(i);
-        if (batch.least < infinity && search_.lists[batch.edge].due == infinity)
-          wait(batch.edge, batch.least);
-      }
+      for (const RayCrossing::Batch& batch : crew_[part]->batches())
+        if (batch.due < infinity) queue_.push({batch.due, batch.edge, batch.lead});
+  }
+  void take(RayCrossing::Batch& batch, EdgeEnvelopes& envelopes) {
+    WindowList& list = search_.lists[batch.edge];
+    const PolyhedralPages::Edge& edge = search_.pages.edges[batch.edge];
+    list.error = std::max(list.error, batch.error);
+    const double least = envelopes.take(list, std::move(batch.windows), edge.length);
+    batch.due = infinity;
+    if (!(least < infinity) || std::exchange(list.waits, true)) return;
+    // Windows wait for what else the front brings, until it has passed the edge or gone on by its
+    // `wait`.
+    const double ends = std::max(search_.distance[edge.tail], search_.distance[edge.head]);
+    batch.due = std::max(least, std::min(ends, least + edge.wait));
+    batch.lead = float(edge.wait);
+    if (!std::exchange(list.is_watched, true))
+      watched_[RayCrossing::share_of(batch.edge)].push_back({passed(batch.edge), batch.edge});
   }
 
-  /// Windows wait for what else the front brings, until it has passed the edge or gone on by its
-  /// `wait`.
-  void wait(int id, double least) {
-    const PolyhedralPages::Edge& edge = search_.pages.edges[id];
-    const double ends = std::max(search_.distance[edge.tail], search_.distance[edge.head]);
-    double& due = search_.lists[id].due;
-    due = std::max(least, std::min(ends, least + edge.wait));
-    push({due, id, float(edge.wait)});
+  void wait_at_vertex(int v) {
+    queue_.push({search_.distance[v], -1 - v, search_.pages.vertex_wait[v]});
   }
 
   /// Windows of edges that the front has passed prune nothing that the ends of the edge do not.
-  void forget_passed(double now) {
-    for (std::size_t i = 0; i < 2 * together_.size() && !gone_on_.empty(); ++i) {
-      if (gone_on_.size() > 12) {
-        const Passing ahead = gone_on_[12];
-        if (ahead.when < now || ahead.when == infinity) {
-          __builtin_prefetch(&search_.lists[ahead.edge]);
-          __builtin_prefetch(&search_.pages.edges[ahead.edge]);
-        }
+  void forget_passed(std::deque<Passing>& watched, RayCrossing& member) {
+    const std::size_t n = together_.size() / (RayCrossing::n_shares / 2) + 1;
+    for (std::size_t i = 0; i < n && !watched.empty(); ++i) {
+      if (watched.size() > 12 && may_have_passed(watched[12])) {
+        __builtin_prefetch(&search_.lists[watched[12].edge]);
+        __builtin_prefetch(&search_.pages.edges[watched[12].edge]);
       }
-      Passing next = gone_on_.front();
-      gone_on_.pop_front();
-      if (next.when < now || next.when == infinity) {
+      Passing next = watched.front();
+      watched.pop_front();
+      if (may_have_passed(next)) {
         WindowList& list = search_.lists[next.edge];
-        if (list.windows.empty() || list.due < infinity) continue;  // it will go on again
         next.when = passed(next.edge);
-        if (next.when < now) {
-          crew_[n_forgotten_++ % crew_.size()]->envelopes.forget(list);
+        if (!list.waits && (list.windows.empty() || next.when < now_)) {
+          list.is_watched = false;
+          member.envelopes.forget(list);
           continue;
         }
       }
-      gone_on_.push_back(next);
+      watched.push_back(next);
     }
   }
-  /// When the front has passed an edge, as far as is known: perhaps later than that.
+  bool may_have_passed(const Passing& edge) const {
+    return edge.when < now_ || edge.when == infinity;
+  }
   double passed(int id) const {
     const PolyhedralPages::Edge& edge = search_.pages.edges[id];
     return 0.5 * (search_.distance[edge.tail] + search_.distance[edge.head] + edge.length);
@@ -247,17 +246,17 @@ class Front {
     budget_ += most_windows_;
     std::fill(search_.pages.bends.begin(), search_.pages.bends.end(), PolyhedralPages::anywhere);
     for (int v = 0; v < T_.n_vertices; ++v)
-      if (search_.distance[v] < infinity) push({search_.distance[v], -1 - v, 0});
+      if (search_.distance[v] < infinity) wait_at_vertex(v);
   }
   /// What is nearer has its shortest path.
   double least_open() const {
     double least = infinity;
-    for (const auto [key, id, wait] : queue_) {
-      if (id >= 0)
-        least = std::min(least, EdgeEnvelopes::least_open(search_.lists[id]));
-      else if (key <= search_.distance[-1 - id])
-        least = std::min(least, key);
-    }
+    queue_.for_each([&](const WaveQueue::Entry& entry) {
+      if (entry.id >= 0)
+        least = std::min(least, EdgeEnvelopes::least_open(search_.lists[entry.id]));
+      else if (entry.key <= search_.distance[-1 - entry.id])
+        least = std::min(least, entry.key);
+    });
     return least;
   }
 
@@ -267,14 +266,12 @@ class Front {
   double budget_ = most_windows_;
   std::size_t relaxed_ = 0;  // times the limit was met
   double exact_within_ = infinity;
-  std::vector<Entry> queue_;   // a heap
-  std::vector<int> together_;  // `Entry::id` of what goes on now
-  struct Passing {
-    double when;
-    int edge;
-  };
-  std::deque<Passing> gone_on_;
-  std::size_t n_forgotten_ = 0;
+  WaveQueue queue_;            // ids of edges with open windows; -1 - vertex
+  std::vector<int> together_;  // those of what goes on now
+  double windows_each_ = 1;    // of the edges among them, the last time
+  double now_ = 0;             // where the front is
+  std::array<std::vector<RayCrossing::Batch*>, RayCrossing::n_shares> to_take_;
+  std::array<std::deque<Passing>, RayCrossing::n_shares> watched_;
   std::vector<std::unique_ptr<RayCrossing>> crew_;
   ThreadCrew threads_;
   int n_reached_ = 0;

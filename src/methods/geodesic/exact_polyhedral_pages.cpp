@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -14,7 +15,7 @@ namespace littoral {
 
 namespace {
 
-constexpr std::size_t vertex_grain = 4096;
+constexpr std::size_t vertex_grain = 4096, triangle_grain = 16384;
 
 /// Triangles but for those with the same three edges as one before.
 std::vector<char> first_of_its_edges(const IntrinsicTriangulation& T) {
@@ -75,6 +76,8 @@ bool closes_up(const IntrinsicTriangulation& T, const PolyhedralPages& P, int v)
   return passed == n && at == 0;
 }
 
+double wait_in(const IntrinsicTriangulation& T, int f) { return 0.5 * T.length.row(f).minCoeff(); }
+
 /// Angles added up as a product of rotations: arc tangents would take longer than all the rest.
 struct Turn {
   double x = 1, y = 0;  // some multiple of the rotation
@@ -96,40 +99,31 @@ struct Turn {
 }  // namespace
 
 PolyhedralPages::PolyhedralPages(const IntrinsicTriangulation& T)
-    : edges(T.n_edges()), bends(T.n_vertices, never), corner_offsets(T.n_vertices + 1, 0) {
-  for (int e = 0; e < T.n_edges(); ++e)
-    edges[e] = {infinity, infinity, T.edges(e, 0), T.edges(e, 1), 0, 0};
+    : triangles(T.n_faces()),
+      edges(T.n_edges()),
+      bends(T.n_vertices, never),
+      vertex_wait(T.n_vertices, std::numeric_limits<float>::infinity()),
+      corner_offsets(T.n_vertices + 1, 0) {
   const std::vector<char> is_first = first_of_its_edges(T);
-  for (int f = 0; f < T.n_faces(); ++f)
-    for (int k = 0; k < 3; ++k) {
-      Edge& edge = edges[T.side_edge(f, k)];
-      edge.length = std::min(edge.length, T.length(f, k));
-      edge.wait = std::min(edge.wait, 0.5 * T.length.row(f).minCoeff());
-      edge.n_pages += is_first[f];
-      corner_offsets[T.faces(f, k) + 1] += is_first[f];
-    }
-  int n_pages = 0;
-  for (Edge& edge : edges) {
-    edge.first_page = n_pages;
-    n_pages += std::exchange(edge.n_pages, 0);
-  }
-  std::partial_sum(corner_offsets.begin(), corner_offsets.end(), corner_offsets.begin());
-  pages.resize(n_pages);
-  across.resize(n_pages);
-  std::vector<int> next_corner(corner_offsets.begin(), corner_offsets.end() - 1);
   std::vector<Turn> turn(std::size_t(T.n_vertices));
-  for (int f = 0; f < T.n_faces(); ++f) {
-    if (!is_first[f]) continue;
-    const TriangleShape shape = T.shape(f);
-    for (int k = 0; k < 3; ++k) {
-      Edge& edge = edges[T.side_edge(f, k)];
-      pages[edge.first_page + edge.n_pages++] = 3 * f + k;
-      across[next_corner[T.faces(f, k)]++] = 3 * f + (k + 1) % 3;
-      turn[T.faces(f, k)].add(shape.cot[k]);
-    }
-  }
+  parallel_for(2, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t half = begin; half < end; ++half)
+      if (half == 0)
+        find_sides(T, is_first);
+      else
+        find_corners(T, is_first, [&](int v, double cot) { turn[v].add(cot); });
+  });
+  parallel_for(triangles.size(), triangle_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f)
+      for (std::size_t k = 0; k < 3; ++k) {
+        triangles[f].length[k] = T.length(f, k);
+        triangles[f].vertex[k] = T.faces(f, k);
+        triangles[f].edge[k] = T.side_edge(f, k);
+        triangles[f].along[k] = T.along(f, k);
+      }
+  });
   for (int e = 0; e < T.n_edges(); ++e)
-    if (edges[e].n_pages != 2) bends[T.edges(e, 0)] = bends[T.edges(e, 1)] = anywhere;
+    if (edges[e].n_pages() != 2) bends[T.edges(e, 0)] = bends[T.edges(e, 1)] = anywhere;
   // Where triangles disagree about an edge, a bent path can be shorter by that than the straight
   // one which it cuts off.
   for (int f = 0; f < T.n_faces(); ++f)
@@ -143,6 +137,59 @@ PolyhedralPages::PolyhedralPages(const IntrinsicTriangulation& T)
                    : turn[v].more_than_full()   ? behind
                                                 : never;
   });
+}
+
+void PolyhedralPages::find_sides(const IntrinsicTriangulation& T,
+                                 const std::vector<char>& is_first) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (int e = 0; e < T.n_edges(); ++e)
+    edges[e] = {infinity, infinity, T.edges(e, 0), T.edges(e, 1), {-1, -1}};
+  std::vector<int> more;  // at edges with two already
+  for (int f = 0; f < T.n_faces(); ++f) {
+    const double wait = wait_in(T, f);
+    for (int k = 0; k < 3; ++k) {
+      Edge& edge = edges[T.side_edge(f, k)];
+      edge.length = std::min(edge.length, T.length(f, k));
+      edge.wait = std::min(edge.wait, wait);
+      if (!is_first[f]) continue;
+      const int side = 3 * f + k;
+      if (edge.sides[0] < 0)
+        edge.sides[0] = side;
+      else if (edge.sides[1] < 0)
+        edge.sides[1] = side;
+      else
+        more.push_back(side);
+    }
+  }
+  const auto edge_of = [&](int side) { return T.side_edge(side / 3, side % 3); };
+  std::stable_sort(more.begin(), more.end(), [&](int a, int b) { return edge_of(a) < edge_of(b); });
+  for (std::size_t i = 0; i < more.size();) {
+    const int e = edge_of(more[i]), first = int(pages.size());
+    pages.insert(pages.end(), edges[e].sides.begin(), edges[e].sides.end());
+    while (i < more.size() && edge_of(more[i]) == e) pages.push_back(more[i++]);
+    edges[e].sides = {first, first - int(pages.size())};
+  }
+}
+
+template <class See>
+void PolyhedralPages::find_corners(const IntrinsicTriangulation& T,
+                                   const std::vector<char>& is_first, const See& see) {
+  for (int f = 0; f < T.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k) corner_offsets[T.faces(f, k) + 1] += is_first[f];
+  std::partial_sum(corner_offsets.begin(), corner_offsets.end(), corner_offsets.begin());
+  across.resize(corner_offsets.back());
+  std::vector<int> next_corner(corner_offsets.begin(), corner_offsets.end() - 1);
+  for (int f = 0; f < T.n_faces(); ++f) {
+    if (!is_first[f]) continue;
+    const TriangleShape shape = T.shape(f);
+    const auto wait = float(wait_in(T, f));
+    for (int k = 0; k < 3; ++k) {
+      float& least = vertex_wait[T.faces(f, k)];
+      least = std::min(least, wait);
+      across[next_corner[T.faces(f, k)]++] = 3 * f + (k + 1) % 3;
+      see(T.faces(f, k), shape.cot[k]);
+    }
+  }
 }
 
 }  // namespace littoral

@@ -2,9 +2,11 @@
 // A triangulation as straight rays see it: what they enter through each edge, where paths bend.
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
+#include "base/large_vector.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
 #include "methods/geodesic/polyhedral_window.h"
 
@@ -14,15 +16,25 @@ namespace littoral {
 struct PolyhedralPages {
   explicit PolyhedralPages(const IntrinsicTriangulation& T);
 
-  struct Edge {
+  /// What rays need of a triangle and of an edge, each in one line of the processor's cache.
+  struct alignas(64) Triangle {
+    std::array<double, 3> length;     // of side k; vertices k and k + 1 are its ends
+    std::array<int, 3> vertex, edge;  // the edge of side k
+    std::array<signed char, 3> along;
+  };
+  struct alignas(32) Edge {
     double length;  // triangles may differ in the eleventh digit
     double wait;    // half of the shortest side of its triangles
     int tail, head;
-    int first_page, n_pages;
+    std::array<int, 2> sides;  // {side, side}, {side, -1}, {-1, -1} or {first in `pages`, -number}
+
+    std::size_t n_pages() const {
+      return sides[1] >= 0 ? 2 : sides[1] < -1 ? std::size_t(-sides[1]) : sides[0] >= 0 ? 1 : 0;
+    }
   };
   /// The sides of triangles at an edge, 3 triangle + k, ascending.
   std::span<const int> at(const Edge& edge) const {
-    return {pages.data() + edge.first_page, std::size_t(edge.n_pages)};
+    return {edge.sides[1] < -1 ? pages.data() + edge.sides[0] : edge.sides.data(), edge.n_pages()};
   }
   std::span<const int> at(int edge) const { return at(edges[edge]); }
   /// Which of the pages of an edge a side is; `no_page` if its triangle is left out or there are
@@ -39,16 +51,25 @@ struct PolyhedralPages {
   }
   /// Whether rays that come through a side have anywhere to go.
   bool leads_on(const Edge& edge, int side) const {
-    return edge.n_pages > 1 || (edge.n_pages == 1 && pages[edge.first_page] != side);
+    return edge.sides[1] != -1 || (edge.sides[0] >= 0 && edge.sides[0] != side);
   }
 
-  std::vector<Edge> edges;
-  std::vector<int> pages;  // by edge
+  LargeVector<Triangle> triangles;
+  LargeVector<Edge> edges;
+  std::vector<int> pages;  // of edges with more than two
   /// Whether paths bend at a vertex: never inside a disk of at most a full turn; inside a disk of
   /// more only behind the vertex, as seen from where they come.
   enum Bends : char { never = 0, anywhere = 1, behind = 2 };
-  std::vector<char> bends;  // vertices
+  std::vector<char> bends;         // vertices
+  std::vector<float> vertex_wait;  // vertices: half of the shortest side of its triangles
   std::vector<int> corner_offsets, across;
+
+ private:
+  void find_sides(const IntrinsicTriangulation& T, const std::vector<char>& is_first);
+  /// `see(vertex, cotangent)` gets every corner.
+  template <class See>
+  void find_corners(const IntrinsicTriangulation& T, const std::vector<char>& is_first,
+                    const See& see);
 };
 
 }  // namespace littoral

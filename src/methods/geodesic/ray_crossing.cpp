@@ -21,9 +21,10 @@ Complex apex_of(double a, double b, double c) {
 }
 
 /// Far corner of a triangle above its side, 3 triangle + k.
-Complex apex_over(const IntrinsicTriangulation& T, int side) {
-  const int f = side / 3, k = side % 3;
-  return apex_of(T.length(f, k), T.length(f, (k + 1) % 3), T.length(f, (k + 2) % 3));
+Complex apex_over(const PolyhedralPages& pages, int side) {
+  const PolyhedralPages::Triangle& t = pages.triangles[side / 3];
+  const int k = side % 3;
+  return apex_of(t.length[k], t.length[(k + 1) % 3], t.length[(k + 2) % 3]);
 }
 
 }  // namespace
@@ -40,11 +41,13 @@ PolyhedralSearch::PolyhedralSearch(const IntrinsicTriangulation& triangulation)
 
 void RayCrossing::clear() {
   offers_.clear();
-  n_batches_ = 0;
+  n_batches_ = n_gone_on_ = 0;
+  for (std::vector<int>& batches : of_share_) batches.clear();
 }
 
 RayCrossing::Batch& RayCrossing::next_batch(int edge, std::size_t n) {
   if (n_batches_ == batches_.size()) batches_.emplace_back();
+  of_share_[share_of(edge)].push_back(int(n_batches_));
   Batch& batch = batches_[n_batches_++];
   batch.edge = edge;
   batch.error = error_;
@@ -72,14 +75,15 @@ void RayCrossing::leave_vertex(int v) {
   error_ = s_.error[v];
   for (const int side : s_.pages.around(v)) {
     const int f = side / 3, k1 = side % 3, k2 = (k1 + 1) % 3, k = (k1 + 2) % 3;
-    offers_.push_back({T_.faces(f, k1), d + T_.length(f, k), source, {3 * f + k2, 1}, error_});
-    offers_.push_back({T_.faces(f, k2), d + T_.length(f, k2), source, {3 * f + k, 0}, error_});
+    const PolyhedralPages::Triangle& t = triangle(f);
+    offers_.push_back({t.vertex[k1], d + t.length[k], source, {3 * f + k2, 1}, error_});
+    offers_.push_back({t.vertex[k2], d + t.length[k2], source, {3 * f + k, 0}, error_});
   }
   const PolyhedralSearch::Arrival& arrival = s_.arrival[v];
   if (s_.pages.bends[v] == PolyhedralPages::behind && arrival.side >= 0)
     return leave_behind(v, arrival);
   for (const int side : s_.pages.around(v))
-    leave_corner(v, side, apex_over(T_, side), 0, T_.length(side / 3, side % 3));
+    leave_corner(v, side, apex_over(s_.pages, side), 0, triangle(side / 3).length[side % 3]);
 }
 
 /// Paths straight from a vertex through a stretch of the side across from it.
@@ -98,19 +102,20 @@ void RayCrossing::leave_corner(int v, int side, Complex apex, double b0, double 
 void RayCrossing::leave_behind(int v, const PolyhedralSearch::Arrival& arrival) {
   corners_.clear();
   for (int side = 3 * (arrival.side / 3) + (arrival.side % 3 + 1) % 3;;) {
-    const auto at = s_.pages.at(T_.side_edge(side / 3, side % 3));
+    const auto at = s_.pages.at(triangle(side / 3).edge[side % 3]);
     const int entered = at[0] == side ? at[1] : at[0], f = entered / 3, k = entered % 3;
     if (f == arrival.side / 3) break;
+    const PolyhedralPages::Triangle& t = triangle(f);
     Corner c;
-    c.from_start = T_.faces(f, k) == v;
+    c.from_start = t.vertex[k] == v;
     c.side = 3 * f + (c.from_start ? k + 1 : k + 2) % 3;
-    c.length = T_.length(f, c.side % 3);
-    c.apex = apex_over(T_, c.side);
+    c.length = t.length[c.side % 3];
+    c.apex = apex_over(s_.pages, c.side);
     corners_.push_back(c);
     side = 3 * f + (c.from_start ? k + 2 : k + 1) % 3;
   }
-  const Complex apex = apex_over(T_, arrival.side);
-  const double length = T_.length(arrival.side / 3, arrival.side % 3);
+  const Complex apex = apex_over(s_.pages, arrival.side);
+  const double length = triangle(arrival.side / 3).length[arrival.side % 3];
   const double p = arrival.share * length, x = apex.real(), y = apex.imag();
   const std::size_t n = corners_.size();
   const HalfTurn ahead = turn({y * y + (p - x) * (length - x), y * (length - p)}, false);
@@ -145,11 +150,11 @@ RayCrossing::HalfTurn RayCrossing::turn(Complex direction, bool backwards) const
 /// Rays that leave a triangle through a side, in that side's coordinates with the triangle (and the
 /// image) above it.
 void RayCrossing::leave(int side, Window w) {
-  const int id = T_.side_edge(side / 3, side % 3);
+  const int id = triangle(side / 3).edge[side % 3];
   const PolyhedralPages::Edge& edge = s_.pages.edges[id];
   if (!s_.pages.leads_on(edge, side)) return;
   w.y = -w.y;
-  if (T_.along(side / 3, side % 3) < 0) w.turn(edge.length);
+  if (triangle(side / 3).along[side % 3] < 0) w.turn(edge.length);
   w.page = s_.pages.page_of(edge, side);
   w.b0 = std::max(w.b0, 0.0);
   w.b1 = std::min(w.b1, edge.length);
@@ -163,23 +168,45 @@ void RayCrossing::fetch(int id, int step) const {
     __builtin_prefetch(&edge);
     __builtin_prefetch(&s_.lists[id]);
   } else if (step == 1) {
-    __builtin_prefetch(s_.pages.pages.data() + edge.first_page);
     __builtin_prefetch(&s_.distance[edge.tail]);
     __builtin_prefetch(&s_.distance[edge.head]);
-  } else {
     s_.lists[id].windows.fetch();
     for (const int side : s_.pages.at(edge)) {
-      __builtin_prefetch(&T_.length(side / 3, 0));
-      __builtin_prefetch(T_.faces.row(side / 3).data());
-      __builtin_prefetch(T_.side_edge.row(side / 3).data());
-      __builtin_prefetch(&T_.along(side / 3, 0));
+      __builtin_prefetch(&triangle(side / 3));
       __builtin_prefetch(&s_.winner[side]);
     }
+  } else if (step == 2) {
+    for (const int side : s_.pages.at(edge)) fetch_corner(side / 3, (side % 3 + 2) % 3);
   }
+}
+
+void RayCrossing::fetch_vertex(int v, int step) const {
+  if (step == 0) {
+    __builtin_prefetch(&s_.pages.corner_offsets[v]);
+    __builtin_prefetch(&s_.distance[v]);
+    __builtin_prefetch(&s_.nearest[v]);
+    __builtin_prefetch(&s_.arrival[v]);
+  } else if (step == 1) {
+    __builtin_prefetch(s_.pages.around(v).data());
+  } else if (step == 2) {
+    for (const int side : s_.pages.around(v)) __builtin_prefetch(&triangle(side / 3));
+  } else {
+    for (const int side : s_.pages.around(v)) fetch_corner(side / 3, (side % 3 + 2) % 3);
+  }
+}
+
+/// What is at a corner of a triangle, and the sides that it ends.
+void RayCrossing::fetch_corner(int f, int k) const {
+  const PolyhedralPages::Triangle& t = triangle(f);
+  __builtin_prefetch(&s_.distance[t.vertex[k]]);
+  __builtin_prefetch(&s_.pages.edges[t.edge[k]]);
+  __builtin_prefetch(&s_.pages.edges[t.edge[(k + 2) % 3]]);
 }
 
 void RayCrossing::go_on(int id) {
   WindowList& list = s_.lists[id];
+  list.waits = false;
+  n_gone_on_ += list.windows.size();
   if (list.none_open || list.windows.empty()) return;
   const PolyhedralPages::Edge& edge = s_.pages.edges[id];
   const EdgeEnds ends = s_.ends(edge);
@@ -212,13 +239,14 @@ void RayCrossing::go_on(int id) {
 /// The rays at hand enter a triangle through a side and leave through the others.
 void RayCrossing::cross(int side) {
   const int f = side / 3, k = side % 3, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
-  const bool turned = T_.along(f, k) < 0;
-  TriangleAbove above{T_.length(f, k), 0};
-  above.apex = apex_over(T_, side);
+  const PolyhedralPages::Triangle& t = triangle(f);
+  const bool turned = t.along[k] < 0;
+  TriangleAbove above{t.length[k], 0};
+  above.apex = apex_over(s_.pages, side);
   if (turned) above.apex = Complex(above.length - above.apex.real(), above.apex.imag());
   rays_.look_at(above, coverage_share * above.length);
   const RayColumns& c = rays_.columns();
-  const int apex = T_.faces(f, k2), n = rays_.size();
+  const int apex = t.vertex[k2], n = rays_.size();
   const PolyhedralSearch::Winner& winner = s_.winner[side];
   far_ = s_.distance[apex];
   for (int i = rays_.first_covering(); i < rays_.last_covering(); ++i)
@@ -231,12 +259,12 @@ void RayCrossing::cross(int side) {
     if (first == last) continue;
     while (!(c.goes[last - 1] & (1 + right))) --last;
     const int next = (right == 1) != turned ? k1 : k2;  // of the triangle's sides
-    const int id = T_.side_edge(f, next);
+    const int id = t.edge[next];
     const PolyhedralPages::Edge& edge = s_.pages.edges[id];
     if (!s_.pages.leads_on(edge, 3 * f + next)) continue;
     // A side from the edge below runs to the apex as given, if it is k1, and else from there.
-    const bool to_apex = (next == k1) == (T_.along(f, next) > 0);
-    const RayExit exit(above, T_.length(f, next), right == 1, !to_apex);
+    const bool to_apex = (next == k1) == (t.along[next] > 0);
+    const RayExit exit(above, t.length[next], right == 1, !to_apex);
     const double base = s_.distance[to_apex ? edge.tail : edge.head];
     leave_together(3 * f + next, id, above, exit,
                    {to_apex ? base : far_, to_apex ? far_ : base, edge.length}, first, last);
@@ -253,12 +281,13 @@ void RayCrossing::look(const Window& w, const TriangleAbove& above, int side) {
   crossing = std::clamp(crossing, w.b0, w.b1);
   if (reached < far_) {
     const int f = side / 3, k = side % 3;
+    const PolyhedralPages::Triangle& t = triangle(f);
     const double share = crossing / above.length;
     far_ = reached;
-    offers_.push_back({T_.faces(f, (k + 2) % 3),
+    offers_.push_back({t.vertex[(k + 2) % 3],
                        reached,
                        w.source,
-                       {side, T_.along(f, k) < 0 ? 1 - share : share},
+                       {side, t.along[k] < 0 ? 1 - share : share},
                        error_});
   }
   if (at_apex < winner.distance) winner = {at_apex, crossing};
@@ -331,6 +360,7 @@ void RayCrossing::leave_together(int side, int id, const TriangleAbove& above, c
   if (!batch.empty()) return;
   envelopes.spare.give(std::move(batch));
   --n_batches_;
+  of_share_[share_of(id)].pop_back();
 }
 
 }  // namespace littoral

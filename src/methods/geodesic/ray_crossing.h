@@ -1,8 +1,10 @@
 #pragma once
 // What goes on from an edge that windows lie on, or from a vertex where paths bend.
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "methods/geodesic/edge_envelopes.h"
@@ -30,11 +32,11 @@ struct PolyhedralSearch {
 
   const IntrinsicTriangulation& T;
   PolyhedralPages pages;
-  std::vector<WindowList> lists;  // edges
+  LargeVector<WindowList> lists;  // edges
   VecX distance;                  // vertices; least found so far
   VecXi nearest;
   std::vector<Arrival> arrival;          // vertices
-  std::vector<Winner> winner;            // sides
+  LargeVector<Winner> winner;            // sides
   VecX error;                            // vertices; see WindowList
   int most_straight = Window::deep + 1;  // how many triangles paths run straight through
   double tolerance = 0;                  // share of a distance that merging may change it by
@@ -60,12 +62,17 @@ class RayCrossing {
   struct Batch {
     int edge;
     WindowBlock windows;
-    double least;  // of what is taken
     double error;
+    double due;  // of the edge from now on; +inf: it waits already, or nothing is taken
+    float lead;
   };
 
   void clear();
+  /// Lets the processor read ahead what an edge or a vertex needs, in steps of which each looks at
+  /// what the one before has fetched.
+  static constexpr int n_fetch_steps = 4;
   void fetch(int edge, int step) const;
+  void fetch_vertex(int v, int step) const;
   /// The windows of an edge that have not gone on, to its triangles.
   void go_on(int edge);
   /// Paths that bend at a vertex: along its edges and into its triangles.
@@ -73,12 +80,21 @@ class RayCrossing {
   void leave_source(const PolyhedralStart& start);
 
   const std::vector<Offer>& offers() const { return offers_; }
-  std::size_t n_batches() const { return n_batches_; }
-  Batch& batch(std::size_t i) { return batches_[i]; }
+  /// Windows of the edges that have gone on.
+  std::size_t n_gone_on() const { return n_gone_on_; }
+  std::span<Batch> batches() { return {batches_.data(), n_batches_}; }
+  Batch& batch(int i) { return batches_[i]; }
+  /// Edges are divided into so many shares, neighbours in memory together, that several threads can
+  /// put batches away.
+  static constexpr std::size_t n_shares = 16;
+  static std::size_t share_of(int edge) { return std::size_t(edge) / 16 % n_shares; }
+  const std::vector<int>& batches_of(std::size_t share) const { return of_share_[share]; }
 
   EdgeEnvelopes envelopes;
 
  private:
+  const PolyhedralPages::Triangle& triangle(int f) const { return s_.pages.triangles[f]; }
+  void fetch_corner(int f, int k) const;
   void cross(int side);
   void look(const Window& w, const TriangleAbove& above, int side);
   void leave_together(int side, int edge, const TriangleAbove& above, const RayExit& exit,
@@ -97,7 +113,8 @@ class RayCrossing {
   const IntrinsicTriangulation& T_;
   std::vector<Offer> offers_;
   std::vector<Batch> batches_;  // the first n_batches_ are in use
-  std::size_t n_batches_ = 0;
+  std::size_t n_batches_ = 0, n_gone_on_ = 0;
+  std::array<std::vector<int>, n_shares> of_share_;
   struct Corner {
     int side;         // across from the vertex
     bool from_start;  // the corner is entered at the leg to the start of that side

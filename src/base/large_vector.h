@@ -1,0 +1,40 @@
+#pragma once
+// Vectors that lie in large pages of memory where the system has them.
+
+#include <algorithm>
+#include <cstddef>
+#include <new>
+#include <vector>
+
+#include "base/platform/large_pages.h"
+
+namespace littoral {
+
+/// What is large begins where a large page does.
+template <class T>
+struct LargePageAllocator {
+  using value_type = T;
+  LargePageAllocator() = default;
+  template <class U>
+  LargePageAllocator(const LargePageAllocator<U>&) {}  // NOLINT(google-explicit-constructor)
+
+  T* allocate(std::size_t n) {
+    void* const begin = ::operator new(n * sizeof(T), alignment(n));
+    if (is_large(n)) prefer_large_pages(begin, n * sizeof(T));
+    return static_cast<T*>(begin);
+  }
+  void deallocate(T* begin, std::size_t n) { ::operator delete(begin, alignment(n)); }
+  bool operator==(const LargePageAllocator&) const { return true; }
+
+ private:
+  static bool is_large(std::size_t n) { return n >= 2 * large_page / sizeof(T); }
+  static std::align_val_t alignment(std::size_t n) {
+    return std::align_val_t(is_large(n) ? large_page : std::max<std::size_t>(alignof(T), 16));
+  }
+};
+
+/// For what is read here and there.
+template <class T>
+using LargeVector = std::vector<T, LargePageAllocator<T>>;
+
+}  // namespace littoral

@@ -8,12 +8,15 @@
 
 #include "base/counted.h"
 #include "base/disjoint_sets.h"
+#include "base/parallel.h"
 #include "domain/mesh/face_orientation.h"
 #include "littoral/error.h"
 
 namespace littoral {
 
 namespace {
+
+constexpr std::size_t vertex_grain = 8192;
 
 /// Lists, for each of n keys, the items that carry it; items stay in order.
 void bucket(const std::vector<int>& key_of_item, const std::vector<int>& value_of_item, int n,
@@ -71,15 +74,17 @@ std::vector<int> first_sides_by_ends(const PolygonSoup& soup) {
   for (std::size_t c = 0; c < n_corners; ++c)  // begin becomes the end of each
     by_low[begin[low(c)]++] = c;
   std::vector<int> first_side(n_corners);
-  auto at = by_low.begin();
-  for (int v = 0; v < soup.n_vertices(); ++v) {
-    const auto first = at, end = by_low.begin() + begin[v];
-    std::stable_sort(first, end, [&](int a, int b) { return high(a) < high(b); });
-    for (; at != end; ++at) {
-      const bool same = at != first && high(*at) == high(*(at - 1));
-      first_side[*at] = same ? first_side[*(at - 1)] : *at;
+  parallel_for(soup.n_vertices(), vertex_grain, [&](std::size_t from, std::size_t to) {
+    auto at = by_low.begin() + (from == 0 ? 0 : begin[from - 1]);
+    for (std::size_t v = from; v < to; ++v) {
+      const auto first = at, end = by_low.begin() + begin[v];
+      std::stable_sort(first, end, [&](int a, int b) { return high(a) < high(b); });
+      for (; at != end; ++at) {
+        const bool same = at != first && high(*at) == high(*(at - 1));
+        first_side[*at] = same ? first_side[*(at - 1)] : *at;
+      }
     }
-  }
+  });
   return first_side;
 }
 
@@ -115,19 +120,33 @@ SurfaceMesh::SurfaceMesh(PolygonSoup soup, const std::vector<int>& edge_of_side)
 }
 
 void SurfaceMesh::Parts::connect(const std::vector<int>& first_side) {
-  const std::size_t n_corners = soup.corners.size();
+  std::vector<int> face_of(soup.corners.size());
+  for (int f = 0; f < soup.n_faces(); ++f) {
+    const auto end = face_of.begin() + soup.face_offsets[f + 1];
+    std::fill(face_of.begin() + soup.face_offsets[f], end, f);
+    triangles = triangles && soup.face(f).size() == 3;
+  }
+  parallel_for(2, 1, [&](std::size_t half, std::size_t) {  // neither needs anything of the other
+    if (half == 0) {
+      number_edges(first_side);
+      bucket(side_edge, face_of, static_cast<int>(edges.rows()), edge_offsets, edge_faces);
+    } else {
+      bucket(soup.corners, face_of, soup.n_vertices(), vertex_offsets, vertex_faces);
+      find_components();
+    }
+  });
+}
+
+void SurfaceMesh::Parts::number_edges(const std::vector<int>& first_side) {
   const Eigen::Index n_edges_found = std::count_if(
       first_side.begin(), first_side.end(), [c = 0](int first) mutable { return first == c++; });
-  std::vector<int> face_of(n_corners);
   edges.resize(n_edges_found, 2);
   int next = 0;
-  side_edge.resize(n_corners);
+  side_edge.resize(soup.corners.size());
   for (int f = 0; f < soup.n_faces(); ++f) {
     const auto corners = soup.face(f);
-    triangles = triangles && corners.size() == 3;
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const std::size_t c = soup.face_offsets[f] + k;
-      face_of[c] = f;
       if (first_side[c] != static_cast<int>(c)) {
         side_edge[c] = side_edge[first_side[c]];
         continue;
@@ -136,9 +155,6 @@ void SurfaceMesh::Parts::connect(const std::vector<int>& first_side) {
       edges.row(next++) << corners[k], corners[(k + 1) % corners.size()];
     }
   }
-  bucket(side_edge, face_of, static_cast<int>(edges.rows()), edge_offsets, edge_faces);
-  bucket(soup.corners, face_of, soup.n_vertices(), vertex_offsets, vertex_faces);
-  find_components();
 }
 
 void SurfaceMesh::Parts::find_components() {

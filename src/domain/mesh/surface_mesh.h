@@ -79,6 +79,7 @@ class SurfaceMesh {
   struct Parts {
     explicit Parts(PolygonSoup of);
     void connect(const std::vector<int>& first_side);
+    void number_edges(const std::vector<int>& first_side);
     void find_components();
 
     PolygonSoup soup;

@@ -22,7 +22,7 @@ namespace {
 constexpr std::array<int, 4> straight = {Window::deep + 1, 16, 4, 0};
 constexpr double most_held = 3e7;      // windows, 2 GB
 constexpr double most_together = 3e4;  // windows
-constexpr double worth_threads = 300;  // windows
+constexpr double worth_threads = 100;  // windows
 
 class Front {
  public:

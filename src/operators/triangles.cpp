@@ -240,10 +240,12 @@ Calculus triangle_calculus(const std::shared_ptr<const IntrinsicTriangulation>& 
   C.G = gradient(T);
   C.A.resize(T->n_faces());
   C.M = VecX::Zero(T->n_vertices);
-  for (int f = 0; f < T->n_faces(); ++f) {
-    C.A[f] = area_of_lengths(T->length(f, 0), T->length(f, 1), T->length(f, 2));
+  parallel_for(T->n_faces(), face_grain, [&](std::size_t begin, std::size_t end) {
+    for (Eigen::Index f = index(begin); f < index(end); ++f)
+      C.A[f] = area_of_lengths(T->length(f, 0), T->length(f, 1), T->length(f, 2));
+  });
+  for (int f = 0; f < T->n_faces(); ++f)
     for (int k = 0; k < 3; ++k) C.M[T->faces(f, k)] += C.A[f] / 3;
-  }
   C.h = T->mean_edge_length;
   C.component = T->component;
   C.n_components = T->n_components;

@@ -9,6 +9,12 @@
 
 namespace littoral {
 
+void prefer_large_pages([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t bytes) {
+#if defined(MADV_HUGEPAGE)
+  (void)madvise(begin, bytes / large_page * large_page, MADV_HUGEPAGE);  // small pages do as well
+#endif
+}
+
 #if defined(__linux__)
 
 namespace {
@@ -28,12 +34,6 @@ thread_local Mapping spare;
 
 }  // namespace
 
-void prefer_large_pages(void* begin, std::size_t bytes) {
-#if defined(MADV_HUGEPAGE)
-  (void)madvise(begin, bytes / large_page * large_page, MADV_HUGEPAGE);  // small pages do as well
-#endif
-}
-
 KeepLargePages::KeepLargePages() { ++keepers; }
 
 KeepLargePages::~KeepLargePages() {
@@ -41,10 +41,9 @@ KeepLargePages::~KeepLargePages() {
 }
 
 std::shared_ptr<void> large_pages(std::size_t bytes) {
-  constexpr std::size_t page = large_page;
-  if (bytes < 2 * page) return nullptr;
+  if (bytes < 2 * large_page) return nullptr;
   // So that it can begin where a large page does; what is to be kept has room for a little more.
-  const std::size_t least = bytes + page, whole = least + (keepers > 0 ? bytes / 8 : 0);
+  const std::size_t least = bytes + large_page, whole = least + (keepers > 0 ? bytes / 8 : 0);
   Mapping mapping = std::exchange(spare, {});
   const bool again = mapping.bytes >= least;
   if (!again) {
@@ -59,14 +58,13 @@ std::shared_ptr<void> large_pages(std::size_t bytes) {
     else
       unmap(std::exchange(spare, mapping));
   });
-  const std::size_t into = std::size_t(-reinterpret_cast<std::uintptr_t>(mapping.at)) % page;
+  const std::size_t into = std::size_t(-reinterpret_cast<std::uintptr_t>(mapping.at)) % large_page;
   void* const begin = static_cast<char*>(mapping.at) + into;
   if (!again) prefer_large_pages(begin, bytes);
   return {std::move(all), begin};
 }
 
 #else
-void prefer_large_pages(void*, std::size_t) {}
 std::shared_ptr<void> large_pages(std::size_t) { return nullptr; }
 KeepLargePages::KeepLargePages() = default;
 KeepLargePages::~KeepLargePages() = default;

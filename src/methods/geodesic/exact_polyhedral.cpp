@@ -149,19 +149,12 @@ class Front {
       member.fetch(id, step);
   }
 
-  void fetch_vertex(int v) const {
-    __builtin_prefetch(&search_.distance[v]);
-    __builtin_prefetch(&search_.nearest[v]);
-    __builtin_prefetch(&search_.arrival[v]);
-    __builtin_prefetch(&search_.error[v]);
-  }
-
   /// Puts what the first members of the crew have collected where it belongs.
   void settle(std::size_t parts, double load) {
     for (std::size_t part = 0; part < parts; ++part) {
       const std::vector<RayCrossing::Offer>& offers = crew_[part]->offers();
       for (std::size_t i = 0; i < offers.size(); ++i) {
-        if (i + 6 < offers.size()) fetch_vertex(offers[i + 6].vertex);
+        if (i + 6 < offers.size()) search_.fetch(offers[i + 6].vertex);
         const RayCrossing::Offer& o = offers[i];
         if (offer(o) && search_.pages.bends[o.vertex]) wait_at_vertex(o.vertex);
       }
@@ -173,7 +166,8 @@ class Front {
       mine.clear();
       for (std::size_t share = worker; share < RayCrossing::n_shares; share += workers)
         for (std::size_t part = 0; part < parts; ++part)
-          for (const int i : crew_[part]->batches_of(share)) mine.push_back(&crew_[part]->batch(i));
+          for (const int i : crew_[part]->batches_of(share))
+            mine.push_back(&crew_[part]->batches()[std::size_t(i)]);
       for (std::size_t i = 0; i < mine.size(); ++i) {
         if (i + 6 < mine.size()) {
           __builtin_prefetch(&search_.lists[mine[i + 6]->edge]);

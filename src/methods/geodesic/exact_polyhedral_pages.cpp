@@ -78,8 +78,10 @@ bool closes_up(const IntrinsicTriangulation& T, const PolyhedralPages& P, int v)
 
 double wait_in(const IntrinsicTriangulation& T, int f) { return 0.5 * T.length.row(f).minCoeff(); }
 
+}  // namespace
+
 /// Angles added up as a product of rotations: arc tangents would take longer than all the rest.
-struct Turn {
+struct PolyhedralPages::Turn {
   double x = 1, y = 0;  // some multiple of the rotation
   int full = 0;         // turns
 
@@ -96,8 +98,6 @@ struct Turn {
   }
 };
 
-}  // namespace
-
 PolyhedralPages::PolyhedralPages(const IntrinsicTriangulation& T)
     : triangles(T.n_faces()),
       edges(T.n_edges()),
@@ -106,12 +106,11 @@ PolyhedralPages::PolyhedralPages(const IntrinsicTriangulation& T)
       corner_offsets(T.n_vertices + 1, 0) {
   const std::vector<char> is_first = first_of_its_edges(T);
   std::vector<Turn> turn(std::size_t(T.n_vertices));
-  parallel_for(2, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t half = begin; half < end; ++half)
-      if (half == 0)
-        find_sides(T, is_first);
-      else
-        find_corners(T, is_first, [&](int v, double cot) { turn[v].add(cot); });
+  parallel_for(2, 1, [&](std::size_t half, std::size_t) {  // neither needs anything of the other
+    if (half == 0)
+      find_sides(T, is_first);
+    else
+      find_corners(T, is_first, turn);
   });
   parallel_for(triangles.size(), triangle_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f)
@@ -171,9 +170,8 @@ void PolyhedralPages::find_sides(const IntrinsicTriangulation& T,
   }
 }
 
-template <class See>
 void PolyhedralPages::find_corners(const IntrinsicTriangulation& T,
-                                   const std::vector<char>& is_first, const See& see) {
+                                   const std::vector<char>& is_first, std::vector<Turn>& turn) {
   for (int f = 0; f < T.n_faces(); ++f)
     for (int k = 0; k < 3; ++k) corner_offsets[T.faces(f, k) + 1] += is_first[f];
   std::partial_sum(corner_offsets.begin(), corner_offsets.end(), corner_offsets.begin());
@@ -187,7 +185,7 @@ void PolyhedralPages::find_corners(const IntrinsicTriangulation& T,
       float& least = vertex_wait[T.faces(f, k)];
       least = std::min(least, wait);
       across[next_corner[T.faces(f, k)]++] = 3 * f + (k + 1) % 3;
-      see(T.faces(f, k), shape.cot[k]);
+      turn[T.faces(f, k)].add(shape.cot[k]);
     }
   }
 }

@@ -66,10 +66,9 @@ struct PolyhedralPages {
 
  private:
   void find_sides(const IntrinsicTriangulation& T, const std::vector<char>& is_first);
-  /// `see(vertex, cotangent)` gets every corner.
-  template <class See>
+  struct Turn;
   void find_corners(const IntrinsicTriangulation& T, const std::vector<char>& is_first,
-                    const See& see);
+                    std::vector<Turn>& turn);
 };
 
 }  // namespace littoral

@@ -183,9 +183,7 @@ void RayCrossing::fetch(int id, int step) const {
 void RayCrossing::fetch_vertex(int v, int step) const {
   if (step == 0) {
     __builtin_prefetch(&s_.pages.corner_offsets[v]);
-    __builtin_prefetch(&s_.distance[v]);
-    __builtin_prefetch(&s_.nearest[v]);
-    __builtin_prefetch(&s_.arrival[v]);
+    s_.fetch(v);
   } else if (step == 1) {
     __builtin_prefetch(s_.pages.around(v).data());
   } else if (step == 2) {

@@ -44,6 +44,13 @@ struct PolyhedralSearch {
   EdgeEnds ends(const PolyhedralPages::Edge& edge) const {
     return {distance[edge.tail], distance[edge.head], edge.length};
   }
+  /// Lets the processor read ahead what is known of a vertex.
+  void fetch(int v) const {
+    __builtin_prefetch(&distance[v]);
+    __builtin_prefetch(&nearest[v]);
+    __builtin_prefetch(&arrival[v]);
+    __builtin_prefetch(&error[v]);
+  }
 };
 
 /// Collects what edges and vertices send, without a change of anything that others read: several
@@ -83,7 +90,6 @@ class RayCrossing {
   /// Windows of the edges that have gone on.
   std::size_t n_gone_on() const { return n_gone_on_; }
   std::span<Batch> batches() { return {batches_.data(), n_batches_}; }
-  Batch& batch(int i) { return batches_[i]; }
   /// Edges are divided into so many shares, neighbours in memory together, that several threads can
   /// put batches away.
   static constexpr std::size_t n_shares = 16;

@@ -34,11 +34,7 @@ if(NOT LITTORAL_QUICK_BUILD)  # files with options are compiled alone
 endif()
 
 # Eigen's decompositions of small matrices, as long to compile as a dozen other files.
-set_property(SOURCE src/base/dense_decompositions.cpp APPEND PROPERTY COMPILE_OPTIONS
-  $<$<CONFIG:Release>:-O1>)
-if(LITTORAL_QUICK_BUILD)
-  set_property(SOURCE src/base/dense_decompositions.cpp APPEND PROPERTY COMPILE_OPTIONS -O0)
-endif()
+set_property(SOURCE src/base/dense_decompositions.cpp APPEND PROPERTY COMPILE_OPTIONS -O1)
 set_property(SOURCE src/base/dense_decompositions.cpp PROPERTY SKIP_PRECOMPILE_HEADERS ON)
 
 # GCC collects garbage when a few hundred MB are in use, a tenth of its time; it needs not much more

@@ -118,8 +118,15 @@ stage_wheel() {
 stage_install() { build_main && scripts/test_install.sh build/release; }
 
 # Address and undefined-behaviour sanitizers; the suites named *Slow* wait for `make test-long`.
+# The library is what they watch: its tests are those that the stage `release` runs, linked with it.
 stage_sanitize() {
-  with_clang asan --target littoral_tests && run_tests asan/tests/littoral_tests --without Slow
+  with_clang tests --target littoral_test_files &&
+    sanitized_tests "$PWD/build/tests/tests/liblittoral_test_files.a" &&
+    run_tests asan/tests/littoral_tests --without Slow
+}
+sanitized_tests() {
+  local compilers=(-DLITTORAL_TEST_ARCHIVE="$1")
+  with_clang asan --target littoral_tests
 }
 
 stage_threads() {  # ThreadSanitizer
@@ -156,8 +163,9 @@ stage_web() {
 # What follows makes up the long tier.
 stage_slow() { release_tests && run_tests release/tests/littoral_tests --only Slow --limit 3600; }
 
+# The tests are watched by the sanitizers, too.
 stage_sanitize_slow() {
-  with_clang asan --target littoral_tests &&
+  sanitized_tests "" &&
     run_tests asan/tests/littoral_tests --only Slow --limit 7200
 }
 

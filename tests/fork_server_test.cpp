@@ -14,6 +14,7 @@
 #include "base/sha256.h"
 #include "littoral/batch.h"
 #include "littoral/error.h"
+#include "shared_data.h"
 
 namespace littoral {
 namespace {
@@ -78,13 +79,12 @@ TEST(ForkServer, WorkDoesNotOutliveIt) {
   EXPECT_FALSE(server.wait(0.05).has_value());
 }  // its end would wait for the sleep
 
-#ifndef LITTORAL_SANITIZED  // whose shadow of memory is larger than the limit
 TEST(ForkServer, LimitsMemory) {
+  if (test::sanitized()) GTEST_SKIP() << "the sanitizer's shadow of memory exceeds the limit";
   const ForkEnd end = forked_end("fill", {0, 1e9});
   EXPECT_EQ(end.told, "") << "the allocation throws";
   EXPECT_LT(end.peak_memory, 1e9);
 }
-#endif
 
 TEST(ForkServer, DoesManyAtOnce) {
   const ForkServer server(forked_work);

@@ -1,6 +1,6 @@
 #pragma once
-// Fixtures shipped with the tests, and the larger collection beside the checkout where there is
-// one.
+// Fixtures shipped with the tests, the larger collection beside the checkout where there is one,
+// and what the tests are linked with.
 
 #include <gtest/gtest.h>
 
@@ -10,6 +10,7 @@
 namespace littoral::test {
 
 std::filesystem::path source_dir();  // the checkout
+bool sanitized();                    // the library is watched by a sanitizer
 
 inline std::filesystem::path fixtures() { return source_dir() / "tests" / "fixtures"; }
 

@@ -8,7 +8,7 @@
 # core run beside those that use all; what they say is printed when they have ended.
 # LITTORAL_SHARED names a larger collection of test data (by default ../shared beside the checkout);
 # tests that need it are reported as skipped where it is absent.
-# FUZZ_SECONDS: time for each fuzz target (5; 300 in the long tier).   JOBS: processes at once (all cores).
+# FUZZ_SECONDS: time for each fuzz target (3; 300 in the long tier).   JOBS: processes at once (all cores).
 # SOAK_SECONDS: how long batches run in the long tier (3600).
 # FUZZ_CASES: random cases of all methods, by seeds, in the long tier (1000000).
 # MUTATIONS, MUTATE_SEED: how many changes to the sources, and which, in the long tier (100, 1).
@@ -135,7 +135,7 @@ stage_threads() {  # ThreadSanitizer
 }
 
 stage_fuzz() {
-  with_clang asan --target fuzzers && JOBS="$jobs" fuzz/run.sh build/asan "${FUZZ_SECONDS:-5}"
+  with_clang asan --target fuzzers && JOBS="$jobs" fuzz/run.sh build/asan "${FUZZ_SECONDS:-3}"
 }
 
 # The viewer's tests on pages of this build; arguments: what they are run by.

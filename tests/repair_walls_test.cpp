@@ -17,7 +17,7 @@
 namespace littoral {
 namespace {
 
-TEST(RepairWalls, SheetsBecomeWalls) {
+TEST(RepairWallsSlow, SheetsBecomeWalls) {
   const PolygonSoup sheet = test::grid_soup(4, 4);
   RepairOptions options;
   options.grid.resolution = 64;
@@ -34,7 +34,7 @@ TEST(RepairWalls, SheetsBecomeWalls) {
   EXPECT_NEAR(test::volume_of(out.surface.soup()), steiner, 0.01 * steiner);
 }
 
-TEST(RepairWalls, OnlySheetsBecomeWalls) {
+TEST(RepairWallsSlow, OnlySheetsBecomeWalls) {
   const PolygonSoup box = test::box_soup(Vec3(0.5, 0.5, 0.5));
   RepairOptions options;
   options.grid.resolution = 48;
@@ -159,7 +159,7 @@ PolygonSoup needles(int count, double width) {
   return out;
 }
 
-TEST(RepairWalls, CrowdedNeedlesTakeTheTimeOfAFew) {
+TEST(RepairWallsSlow, CrowdedNeedlesTakeTheTimeOfAFew) {
   const double width = 0.004, r = 0.05;
   const PolygonSoup crowd = needles(200, width), few = needles(1, width);
   const Grid grid = choose_grid(crowd, {.resolution = 64});

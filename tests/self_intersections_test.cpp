@@ -203,7 +203,7 @@ TEST(SelfIntersections, OfAConeOnItsBase) {
   EXPECT_GT(crossing(cone), 0);
 }
 
-TEST(SelfIntersections, OfTwoLargeFansWithACommonRim) {
+TEST(SelfIntersectionsSlow, OfTwoLargeFansWithACommonRim) {
   constexpr int n = 2000;
   for (const double low : {-1.0, 0.0, 0.5}) {
     PolygonSoup cones;

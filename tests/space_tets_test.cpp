@@ -177,7 +177,7 @@ TEST(SignedHeatTets, SphereErrorFallsWithTheSpacingAndValuesReachTheGrid) {
   }
 }
 
-TEST(SignedHeatTets, OneSolveIsAsTheSolvesOnAFactor) {
+TEST(SignedHeatTetsSlow, OneSolveIsAsTheSolvesOnAFactor) {
   const OrientedPoints source = test::sphere_samples(3);
   const TetLattice tets(Vec3::Constant(-1.5), 3, 4, source.points);
   const auto ops = std::make_shared<const TetOperators>(tet_operators(tets.mesh()));

@@ -262,7 +262,7 @@ TEST(SpatialBvh, DistancesAtNodesAreThoseOfTheirPoints) {
     }
 }
 
-TEST(SpatialBvh, DistancesAtNodesAreRightWhereManyFacesAreEquallyNear) {
+TEST(SpatialBvhSlow, DistancesAtNodesAreRightWhereManyFacesAreEquallyNear) {
   // About the middle of a sphere all its faces are, in the middle of a torus rings of them.
   for (const PolygonSoup& soup : {test::octasphere_soup(5), test::torus_soup(60, 30, 0.7, 0.3)})
     for (Grid grid : grids_about_soups()) {

@@ -26,6 +26,10 @@ const flags = [
   "--disable-component-update", "--disable-sync",
 ];
 
+/// Whether edges are smooth. Most tests judge other things, and without a graphics card that takes a seventh of their time.
+export const drawing = { smooth: !process.env.NODE_TEST_CONTEXT };
+const edges = () => (drawing.smooth ? [] : ["--webgl-antialiasing-mode=none"]);
+
 // One browser serves the pages of a test file; it ends soon after the last of them.
 let running = null, open = 0, ending = 0;
 export const firefox = process.env.FIREFOX;
@@ -37,7 +41,7 @@ const launch = (extraFlags, scheme) => firefox
     executablePath: firefox, headless: false,
     firefoxUserPrefs: { "webgl.force-enabled": true, "layout.css.prefers-color-scheme.content-override": scheme === "dark" ? 0 : 1 },
   })
-  : playwright.chromium.launch({ executablePath: executable(), args: [...flags, ...extraFlags] });
+  : playwright.chromium.launch({ executablePath: executable(), args: [...flags, ...edges(), ...extraFlags] });
 
 async function contextOf(extraFlags, options) {
   if (extraFlags.length > 0 || (firefox && options.colorScheme === "dark")) {

@@ -5,9 +5,10 @@ import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { test } from "node:test";
-import { firefox, frames } from "./browser.mjs";
+import { drawing, firefox, frames } from "./browser.mjs";
 import { base64, field, scene, show, sky, torus, torusNormal } from "./scenes.mjs";
 
+drawing.smooth = true;
 const folder = join(dirname(fileURLToPath(import.meta.url)), "screens");
 const shape = torus(72, 36), at = (v, k) => shape.positions[3 * v + k], each = (f) => Array.from({ length: shape.positions.length / 3 }, (_, v) => f(v));
 const view = { centre: [0, 0, 0], radius: 1, towardsEye: [0, 0.6, 0.8], up: [0, 0.8, -0.6] };

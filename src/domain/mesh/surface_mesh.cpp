@@ -45,11 +45,12 @@ double check_faces(const PolygonSoup& soup) {
                              "; the mesh has " + counted(soup.n_vertices(), "vertex", "vertices") +
                              ", counted from 0",
                          "no-such-element");
-      if (!soup.points.row(v).allFinite())
+      const double x = soup.points(v, 0), y = soup.points(v, 1), z = soup.points(v, 2);
+      if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
         throw InputError("vertex " + std::to_string(v) + ", used by face " + std::to_string(f) +
                              ", has a coordinate that is not finite",
                          "not-finite");
-      largest = std::max(largest, soup.points.row(v).cwiseAbs().maxCoeff());
+      largest = std::max({largest, std::abs(x), std::abs(y), std::abs(z)});
     }
   }
   return largest;

@@ -45,6 +45,7 @@ double check_faces(const PolygonSoup& soup) {
                              "; the mesh has " + counted(soup.n_vertices(), "vertex", "vertices") +
                              ", counted from 0",
                          "no-such-element");
+      // By number: the functions of a row of Eigen's are calls, two for every corner.
       const double x = soup.points(v, 0), y = soup.points(v, 1), z = soup.points(v, 2);
       if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
         throw InputError("vertex " + std::to_string(v) + ", used by face " + std::to_string(f) +

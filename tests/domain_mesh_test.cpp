@@ -1,5 +1,11 @@
 #include <gmock/gmock.h>
 
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "base/parallel.h"
 #include "littoral/error.h"
 #include "test_meshes.h"
 
@@ -35,6 +41,56 @@ TEST(SurfaceMesh, KeepsNonmanifoldEdgesAndIsolatedVertices) {
   EXPECT_EQ(mesh.edge_faces(mesh.find_edge(0, 1)).size(), 4u);
   EXPECT_EQ(mesh.vertex_component()[6], -1);
   EXPECT_EQ(mesh.n_components(), 1);
+}
+
+// So many vertices that several threads share them; the simple reference is a map.
+TEST(SurfaceMesh, EdgesOfManyVerticesAreThoseOfAMapOnAnyNumberOfThreads) {
+  PolygonSoup soup = test::torus_soup(150, 140);
+  test::add_triangle(soup, 0, 1, 20000);  // edges of three faces, and between far numbers
+  test::add_triangle(soup, 1, 0, 9000);
+  test::add_triangle(soup, 7, 7, 12000);  // a side that ends where it begins
+  std::map<std::pair<int, int>, int> number;
+  std::vector<std::array<int, 2>> edges;
+  std::vector<int> edge_of_side;
+  for (int f = 0; f < soup.n_faces(); ++f) {
+    const auto corners = soup.face(f);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const int tail = corners[k], head = corners[(k + 1) % corners.size()];
+      const auto [at, is_new] = number.try_emplace(std::minmax(tail, head), int(edges.size()));
+      if (is_new) edges.push_back({tail, head});
+      edge_of_side.push_back(at->second);
+    }
+  }
+  for (const int threads : {1, 2, 3, 0}) {
+    set_thread_count(threads);
+    const SurfaceMesh mesh(soup);
+    ASSERT_EQ(mesh.n_edges(), int(edges.size()));
+    for (int e = 0; e < mesh.n_edges(); ++e) {
+      ASSERT_EQ(mesh.edges()(e, 0), edges[e][0]);
+      ASSERT_EQ(mesh.edges()(e, 1), edges[e][1]);
+    }
+    for (int c = 0; c < int(edge_of_side.size()); ++c)
+      ASSERT_EQ(mesh.side_edge(c / 3, c % 3), edge_of_side[c]);
+  }
+  set_thread_count(0);
+}
+
+// Of several the first in the order of faces, whichever thread finds one first.
+TEST(SurfaceMesh, NamesTheFirstFaceThatIsWrongOfMany) {
+  PolygonSoup soup = test::grid_soup(200, 200);
+  soup.points(201 * 200, 2) = std::nan("");  // of the last row
+  soup.corners[3 * 20000 + 1] = 99999;
+  soup.corners[3 * 60000] = -1;
+  for (const int threads : {1, 2, 0}) {
+    set_thread_count(threads);
+    try {
+      const SurfaceMesh mesh(soup);
+      FAIL();
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("face 20000 refers to vertex 99999"));
+    }
+  }
+  set_thread_count(0);
 }
 
 TEST(SurfaceMesh, TakesAnyNumbersForEdges) {

@@ -66,8 +66,52 @@ TEST(ScalarHeat, TheMeanOfBothBoundaryValuesIsInOneUnit) {
   const VecX expected = normalize(-C.G.apply(mean));
 
   CellField field = no_field(expected.size() / 2);
-  ScalarHeat(C, t, {}, {}, {}).add_nearest(C, system, 1, field, {}, report);
+  ScalarHeat(C, t, {}, {}, {}, {}).add_nearest(C, system, 1, field, {}, report);
   EXPECT_LT((field.Y - expected).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+// Nodes without mass and on the boundary keep their places in the matrices, so that heat and
+// distance have factors of one structure.
+TEST(ScalarHeat, OnTheStructureOfTheLaplacianItIsTheSame) {
+  PolygonSoup soup = test::grid_soup(9, 7, 1);
+  soup.points.conservativeResize(soup.points.rows() + 1, 3);
+  soup.points.bottomRows(1).setZero();  // in no face
+  Report report;
+  const test::Problem p =
+      test::problem(SurfaceMesh(std::move(soup)), test::vertex_points({34}), report);
+  const Calculus& C = p.ops->scalar;
+  ASSERT_EQ(C.M[C.M.size() - 1], 0);
+  const double t = 0.02;
+  const Poisson poisson(C.L, C.component, C.n_components, {});
+  const ScalarHeat own(C, t, {}, dissection(C.L, {}), nullptr, {});
+  const ScalarHeat shared(C, t, {}, dissection(C.L, {}), poisson.structure(), {});
+  ASSERT_TRUE(shared.neumann()->factor() && shared.dirichlet()->factor());
+  EXPECT_EQ(shared.neumann()->factor()->structure(), poisson.structure());
+  EXPECT_EQ(shared.dirichlet()->factor()->structure(), poisson.structure());
+  EXPECT_NE(own.neumann()->factor()->structure(), poisson.structure());
+
+  SourceSystem system;
+  system.u0.resize(C.M.size(), 1);
+  system.u0.insert(34, 0) = 1;
+  system.batch_of_points = {1};
+  system.batch_value = VecX::Zero(1);
+  CellField field = no_field(C.A.size()), expected = no_field(C.A.size());
+  own.add_nearest(C, system, 1, expected, {}, report);
+  shared.add_nearest(C, system, 1, field, {}, report);
+  EXPECT_GT(expected.Y.norm(), 1);
+  EXPECT_LT((field.Y - expected.Y).cwiseAbs().maxCoeff(), 1e-12);
+
+  // By dense matrices, whose boundary nodes are the identity's.
+  Eigen::MatrixXd L(C.L), A = t * Eigen::MatrixXd(L.selfadjointView<Eigen::Lower>());
+  A.diagonal() += C.M;
+  for (Eigen::Index v = 0; v < A.rows(); ++v) {
+    if (C.M[v] > 0 && !C.boundary[v]) continue;
+    A.row(v).setZero();
+    A.col(v).setZero();
+    A(v, v) = 1;
+  }
+  const Eigen::MatrixXd lower(shared.dirichlet()->lower());
+  EXPECT_LT((Eigen::MatrixXd(lower.selfadjointView<Eigen::Lower>()) - A).norm(), 1e-15);
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <new>
+#include <utility>
 #include <vector>
 
 #include "base/platform/large_pages.h"
@@ -22,6 +24,15 @@ struct LargePageAllocator {
     void* const begin = ::operator new(n * sizeof(T), alignment(n));
     if (is_large(n)) prefer_large_pages(begin, n * sizeof(T));
     return static_cast<T*>(begin);
+  }
+  /// Without a value, what is plain stays as it comes: the threads that fill it are to touch it.
+  template <class U>
+  void construct(U* at) {
+    ::new (static_cast<void*>(at)) U;
+  }
+  template <class U, class... Args>
+  void construct(U* at, Args&&... args) {
+    std::construct_at(at, std::forward<Args>(args)...);
   }
   void deallocate(T* begin, std::size_t n) { ::operator delete(begin, alignment(n)); }
   bool operator==(const LargePageAllocator&) const { return true; }

@@ -36,6 +36,7 @@ Eigen::SparseMatrix<Scalar> sum_over_triangles(int n, const Eigen::Ref<const Mat
     return std::minmax({unknowns(f, k), unknowns(f, (k + 1) % 3)});
   };
   std::vector<char> used(n, 0);
+  constexpr Eigen::Index ahead = 12;  // triangles: columns are met in any order
   for (Eigen::Index f = 0; f < unknowns.rows(); ++f)
     for (int k = 0; k < 3; ++k) {
       used[unknowns(f, k)] = 1;
@@ -65,6 +66,11 @@ Eigen::SparseMatrix<Scalar> sum_over_triangles(int n, const Eigen::Ref<const Mat
     });
     for (Eigen::Index i = 0; i < count; ++i)
       for (int k = 0; k < 3; ++k) {
+        if (const Eigen::Index next = first + i + ahead; next < unknowns.rows()) {
+          const int column = unknowns(next, k);
+          __builtin_prefetch(&value[begin[column]]);
+          __builtin_prefetch(&row_of[end[column]]);
+        }
         const TriangleTerms<Scalar>& t = batch[i];
         value[begin[unknowns(first + i, k)]] += t.diagonal[k];
         const auto [column, row] = pair(first + i, k);

@@ -1,11 +1,14 @@
 #include "domain/intrinsic/intrinsic_triangulation.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "base/counted.h"
 #include "base/disjoint_sets.h"
+#include "base/index.h"
 #include "base/option_table.h"
 #include "base/parallel.h"
 #include "domain/intrinsic/lengthened_sides.h"
@@ -17,8 +20,12 @@ namespace littoral {
 
 namespace {
 
+constexpr std::size_t face_grain = 16384, edge_grain = 16384;
+constexpr std::size_t fetched_ahead = 6;  // faces and edges: points are read in any order
+
 void take_faces(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& report) {
   std::vector<int> kept;
+  kept.reserve(std::size_t(mesh.n_faces()));
   T.triangle_of_face.assign(mesh.n_faces(), -1);
   for (int f = 0; f < mesh.n_faces(); ++f) {
     if (!mesh.has_distinct_corners(f)) continue;
@@ -38,17 +45,39 @@ void take_faces(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& repo
     T.side_edge = SharedRows<int, 3>(T.side_edge.matrix()(kept, Eigen::all));
   }
   T.along.resize(n, 3);
-  for (int t = 0; t < n; ++t)
-    for (int k = 0; k < 3; ++k) T.along(t, k) = mesh.side_along(kept[t], k) ? 1 : -1;
+  parallel_for(kept.size(), face_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t)
+      for (int k = 0; k < 3; ++k) T.along(index(t), k) = mesh.side_along(kept[t], k) ? 1 : -1;
+  });
 }
 
-void measure(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& report) {
-  Vec3 low = mesh.point(T.faces(0, 0)), high = low;
-  for (int f = 0; f < T.n_faces(); ++f)
-    for (int k = 0; k < 3; ++k) {
-      low = low.cwiseMin(mesh.point(T.faces(f, k)));
-      high = high.cwiseMax(mesh.point(T.faces(f, k)));
-    }
+/// Lowest and highest coordinates of the triangles.
+std::pair<Vec3, Vec3> bounds_of(const SurfaceMesh& mesh, const IntrinsicTriangulation& T) {
+  const auto n = std::size_t(T.n_faces());
+  const std::pair<Vec3, Vec3> none(Vec3::Constant(infinity), Vec3::Constant(-infinity));
+  std::vector<std::pair<Vec3, Vec3>> parts((n + face_grain - 1) / face_grain, none);
+  parallel_for(n, face_grain, [&](std::size_t begin, std::size_t end) {
+    auto [low, high] = none;
+    for (std::size_t f = begin; f < end; ++f)
+      for (int k = 0; k < 3; ++k) {
+        if (f + fetched_ahead < n)
+          __builtin_prefetch(&mesh.points()(T.faces(index(f + fetched_ahead), k), 0));
+        const Vec3 p = mesh.point(T.faces(index(f), k));
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+      }
+    parts[begin / face_grain] = {low, high};
+  });
+  for (const auto& [low, high] : parts) {
+    parts[0].first = parts[0].first.cwiseMin(low);
+    parts[0].second = parts[0].second.cwiseMax(high);
+  }
+  return parts[0];
+}
+
+void measure(const SurfaceMesh& mesh, const EdgeSides& sides, IntrinsicTriangulation& T,
+             Report& report) {
+  const auto [low, high] = bounds_of(mesh, T);
   const double extent = (0.5 * high - 0.5 * low).maxCoeff();  // halved first: must not overflow
   if (!(extent > 0))
     throw InputError("the mesh has no extent: all its vertices are at one point", "empty-input");
@@ -58,16 +87,19 @@ void measure(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& report)
   T.unit = std::exp2(std::floor(std::log2(extent)));
 
   VecX edge_length(T.n_edges());
-  T.edge_use.assign(T.n_edges(), 0);
-  for (int e = 0; e < T.n_edges(); ++e) {
-    const Vec3 d = mesh.point(T.edges(e, 1)) / T.unit - mesh.point(T.edges(e, 0)) / T.unit;
-    edge_length[e] = d.norm();
-  }
-  for (int f = 0; f < T.n_faces(); ++f)
-    for (int k = 0; k < 3; ++k) {
-      auto& use = T.edge_use[T.side_edge(f, k)];
-      use = static_cast<std::uint8_t>(std::min(255, use + 1));
+  T.edge_use.resize(T.n_edges());
+  parallel_for(T.edge_use.size(), edge_grain, [&](std::size_t begin, std::size_t end) {
+    for (Eigen::Index e = index(begin); e < index(end); ++e) {
+      if (const Eigen::Index next = e + index(fetched_ahead); next < T.n_edges()) {
+        __builtin_prefetch(&mesh.points()(T.edges(next, 0), 0));
+        __builtin_prefetch(&mesh.points()(T.edges(next, 1), 0));
+      }
+      const Vec3 d = mesh.point(T.edges(e, 1)) / T.unit - mesh.point(T.edges(e, 0)) / T.unit;
+      edge_length[e] = d.norm();
+      const std::size_t use = sides.at(int(e)).size();
+      T.edge_use[e] = static_cast<std::uint8_t>(std::min<std::size_t>(255, use));
     }
+  });
   double sum = 0;
   int used = 0;
   for (int e = 0; e < T.n_edges(); ++e) {
@@ -78,8 +110,10 @@ void measure(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& report)
   T.mean_edge_length = sum / used;
 
   T.length.resize(T.n_faces(), 3);
-  for (int f = 0; f < T.n_faces(); ++f)
-    for (int k = 0; k < 3; ++k) T.length(f, k) = edge_length[T.side_edge(f, k)];
+  parallel_for(std::size_t(T.n_faces()), face_grain, [&](std::size_t begin, std::size_t end) {
+    for (Eigen::Index f = index(begin); f < index(end); ++f)
+      for (int k = 0; k < 3; ++k) T.length(f, k) = edge_length[T.side_edge(f, k)];
+  });
   const int lengthened = lengthen_sides(T, 1e-10);
   if (lengthened > 0)
     report.warn("degenerate-faces",
@@ -111,23 +145,32 @@ void mark_seams(const SurfaceMesh& mesh, IntrinsicTriangulation& T, const EdgeSi
   auto left = [&](const TriangleSide& s) {
     return T.orientation[s.face()] * T.along(s.face(), s.k());
   };
-  for (int e = 0; e < T.n_edges(); ++e) {
-    const auto at = sides.at(e);
-    for (std::size_t i = 1; i < at.size(); ++i) {
-      bool same_side = false;
-      if (at.size() > 2) {
-        const Vec3 first = into_face(mesh, T, at[0].face(), at[0].k());
-        same_side = first.dot(into_face(mesh, T, at[i].face(), at[i].k())) > 1e-9;
+  std::atomic<bool> any{false};
+  parallel_for(std::size_t(T.n_edges()), edge_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) {
+      const auto at = sides.at(int(e));
+      for (std::size_t i = 1; i < at.size(); ++i) {
+        bool same_side = false;
+        if (at.size() > 2) {
+          const Vec3 first = into_face(mesh, T, at[0].face(), at[0].k());
+          same_side = first.dot(into_face(mesh, T, at[i].face(), at[i].k())) > 1e-9;
+        }
+        const int wanted = same_side ? left(at[0]) : -left(at[0]);
+        if (left(at[i]) == wanted) continue;
+        T.seam(at[i].face(), at[i].k()) = 1;
+        any = true;
       }
-      const int wanted = same_side ? left(at[0]) : -left(at[0]);
-      if (left(at[i]) == wanted) continue;
-      T.seam(at[i].face(), at[i].k()) = 1;
-      T.has_seams = true;
     }
-  }
+  });
+  T.has_seams = any;
 }
 
-void find_components(IntrinsicTriangulation& T) {
+void find_components(const SurfaceMesh& mesh, IntrinsicTriangulation& T) {
+  if (T.n_faces() == mesh.n_faces()) {
+    T.component = mesh.vertex_component();
+    T.n_components = mesh.n_components();
+    return;
+  }
   DisjointSets vertices(T.n_vertices);
   std::vector<char> used(T.n_vertices, 0);
   for (int f = 0; f < T.n_faces(); ++f)
@@ -151,13 +194,13 @@ IntrinsicTriangulation intrinsic_triangulation(const SurfaceMesh& mesh, Report& 
   EdgeSides sides;
   parallel_for(2, 1, [&](std::size_t half, std::size_t) {  // neither needs anything of the other
     if (half == 0) {
-      measure(mesh, T, report);
-      find_components(T);
-    } else {
       sides = edge_sides(T);
+    } else {
       take_orientation(mesh, T);
+      find_components(mesh, T);
     }
   });
+  measure(mesh, sides, T, report);
   mark_seams(mesh, T, sides);
   return T;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -16,7 +17,7 @@ namespace littoral {
 
 namespace {
 
-constexpr std::size_t vertex_grain = 8192;
+constexpr std::size_t vertex_grain = 8192, corner_face_grain = 16384;
 
 /// Lists, for each of n keys, the items that carry it; items stay in order.
 void bucket(const std::vector<int>& key_of_item, const std::vector<int>& value_of_item, int n,
@@ -30,60 +31,88 @@ void bucket(const std::vector<int>& key_of_item, const std::vector<int>& value_o
     values[next[key_of_item[i]]++] = value_of_item[i];
 }
 
-/// Returns the largest coordinate of a face.
-double check_faces(const PolygonSoup& soup) {
+/// Returns its largest coordinate.
+double check_face(const PolygonSoup& soup, int f) {
+  const auto corners = soup.face(f);
+  if (corners.size() < 3)
+    throw InputError("face " + std::to_string(f) + " has " +
+                     counted(corners.size(), "corner", "corners") +
+                     "; a face needs three at least");
   double largest = 0;
-  for (int f = 0; f < soup.n_faces(); ++f) {
-    const auto corners = soup.face(f);
-    if (corners.size() < 3)
-      throw InputError("face " + std::to_string(f) + " has " +
-                       counted(corners.size(), "corner", "corners") +
-                       "; a face needs three at least");
-    for (int v : corners) {
-      if (v < 0 || v >= soup.n_vertices())
-        throw InputError("face " + std::to_string(f) + " refers to vertex " + std::to_string(v) +
-                             "; the mesh has " + counted(soup.n_vertices(), "vertex", "vertices") +
-                             ", counted from 0",
-                         "no-such-element");
-      // By number: the functions of a row of Eigen's are calls, two for every corner.
-      const double x = soup.points(v, 0), y = soup.points(v, 1), z = soup.points(v, 2);
-      if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
-        throw InputError("vertex " + std::to_string(v) + ", used by face " + std::to_string(f) +
-                             ", has a coordinate that is not finite",
-                         "not-finite");
-      largest = std::max({largest, std::abs(x), std::abs(y), std::abs(z)});
-    }
+  for (int v : corners) {
+    if (v < 0 || v >= soup.n_vertices())
+      throw InputError("face " + std::to_string(f) + " refers to vertex " + std::to_string(v) +
+                           "; the mesh has " + counted(soup.n_vertices(), "vertex", "vertices") +
+                           ", counted from 0",
+                       "no-such-element");
+    // By number: the functions of a row of Eigen's are calls, two for every corner.
+    const double x = soup.points(v, 0), y = soup.points(v, 1), z = soup.points(v, 2);
+    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
+      throw InputError("vertex " + std::to_string(v) + ", used by face " + std::to_string(f) +
+                           ", has a coordinate that is not finite",
+                       "not-finite");
+    largest = std::max({largest, std::abs(x), std::abs(y), std::abs(z)});
   }
   return largest;
 }
 
+/// Returns the largest coordinate of a face.
+double check_faces(const PolygonSoup& soup) {
+  const std::size_t n = std::size_t(soup.n_faces());
+  std::vector<double> largest((n + corner_face_grain - 1) / corner_face_grain, 0.0);
+  parallel_for(n, corner_face_grain, [&](std::size_t begin, std::size_t end) {
+    constexpr std::size_t ahead = 16;  // corners: points are read in any order
+    double here = 0;
+    for (std::size_t f = begin; f < end; ++f) {
+      const std::size_t next = std::size_t(soup.face_offsets[f]) + ahead;
+      for (std::size_t c = next; c < std::min(next + 3, soup.corners.size()); ++c)
+        if (const int v = soup.corners[c]; v >= 0 && v < soup.n_vertices())
+          __builtin_prefetch(&soup.points(v, 0));
+      here = std::max(here, check_face(soup, int(f)));
+    }
+    largest[begin / corner_face_grain] = here;
+  });
+  return std::accumulate(largest.begin(), largest.end(), 0.0,
+                         [](double a, double b) { return std::max(a, b); });
+}
+
 /// For each side (by its first corner) the first one with the same two ends.
 std::vector<int> first_sides_by_ends(const PolygonSoup& soup) {
-  const std::size_t n_corners = soup.corners.size();
-  std::vector<int> head(n_corners);
-  for (int f = 0; f < soup.n_faces(); ++f) {
-    const auto corners = soup.face(f);
-    for (std::size_t k = 0; k < corners.size(); ++k)
-      head[soup.face_offsets[f] + k] = corners[(k + 1) % corners.size()];
-  }
-  const auto low = [&](std::size_t side) { return std::min(soup.corners[side], head[side]); };
-  const auto high = [&](int side) { return std::max(soup.corners[side], head[side]); };
-  // Sides with the same smaller vertex are few: match them there.
-  std::vector<int> begin(soup.n_vertices() + 1, 0), by_low(n_corners);
-  for (std::size_t c = 0; c < n_corners; ++c) ++begin[low(c)];
+  using Side = std::uint64_t;  // the larger vertex, then the side: ascending as sides are given
+  const std::size_t n = std::size_t(soup.n_vertices());
+  // Sides with the same smaller vertex are few: match them there. Each range of vertices is done by
+  // one thread, which goes over all faces for it.
+  const std::size_t ranges = std::size_t(std::min(thread_count(), 4));
+  const std::size_t range = std::max(n / ranges + 1, vertex_grain);
+  const auto for_sides = [&](std::size_t from, std::size_t to, const auto& visit) {
+    for (int f = 0; f < soup.n_faces(); ++f) {
+      const auto corners = soup.face(f);
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        const int tail = corners[k], head = corners[k + 1 < corners.size() ? k + 1 : 0];
+        const auto low = std::size_t(std::min(tail, head));
+        if (low >= from && low < to) visit(low, std::max(tail, head), soup.face_offsets[f] + k);
+      }
+    }
+  };
+  std::vector<int> begin(n + 1, 0), first_side(soup.corners.size());
+  std::vector<Side> by_low(soup.corners.size());
+  parallel_for(n, range, [&](std::size_t from, std::size_t to) {
+    for_sides(from, to, [&](std::size_t low, int, std::size_t) { ++begin[low]; });
+  });
   int sum = 0;
   for (int& b : begin) sum += std::exchange(b, sum);
-  for (std::size_t c = 0; c < n_corners; ++c)  // begin becomes the end of each
-    by_low[begin[low(c)]++] = c;
-  std::vector<int> first_side(n_corners);
-  parallel_for(soup.n_vertices(), vertex_grain, [&](std::size_t from, std::size_t to) {
-    auto at = by_low.begin() + (from == 0 ? 0 : begin[from - 1]);
+  parallel_for(n, range, [&](std::size_t from, std::size_t to) {
+    auto at = by_low.begin() + begin[from];
+    for_sides(from, to, [&](std::size_t low, int high, std::size_t side) {
+      by_low[begin[low]++] = Side(high) << 32 | side;  // begin becomes the end of each
+    });
     for (std::size_t v = from; v < to; ++v) {
       const auto first = at, end = by_low.begin() + begin[v];
-      std::stable_sort(first, end, [&](int a, int b) { return high(a) < high(b); });
+      std::sort(first, end);
       for (; at != end; ++at) {
-        const bool same = at != first && high(*at) == high(*(at - 1));
-        first_side[*at] = same ? first_side[*(at - 1)] : *at;
+        const bool same = at != first && (*at >> 32) == (*(at - 1) >> 32);
+        const auto side = std::uint32_t(*at);
+        first_side[side] = same ? first_side[std::uint32_t(*(at - 1))] : int(side);
       }
     }
   });
@@ -98,6 +127,7 @@ SurfaceMesh::Parts::Parts(PolygonSoup of) : soup(std::move(of)) {
         "the mesh has more than 2147483647 face corners; simplify it or take a part of it",
         "too-large");
   const double largest = check_faces(soup);
+  triangles = soup.corners.size() == 3 * std::size_t(soup.n_faces());  // none has fewer than three
   if (largest > 0) scale = std::ldexp(1.0, std::ilogb(largest));
 }
 
@@ -123,11 +153,12 @@ SurfaceMesh::SurfaceMesh(PolygonSoup soup, const std::vector<int>& edge_of_side)
 
 void SurfaceMesh::Parts::connect(const std::vector<int>& first_side) {
   std::vector<int> face_of(soup.corners.size());
-  for (int f = 0; f < soup.n_faces(); ++f) {
-    const auto end = face_of.begin() + soup.face_offsets[f + 1];
-    std::fill(face_of.begin() + soup.face_offsets[f], end, f);
-    triangles = triangles && soup.face(f).size() == 3;
-  }
+  parallel_for(std::size_t(soup.n_faces()), corner_face_grain,
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t f = begin; f < end; ++f)
+                   std::fill(face_of.begin() + soup.face_offsets[f],
+                             face_of.begin() + soup.face_offsets[f + 1], int(f));
+               });
   parallel_for(2, 1, [&](std::size_t half, std::size_t) {  // neither needs anything of the other
     if (half == 0) {
       number_edges(first_side);

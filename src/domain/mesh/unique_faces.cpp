@@ -11,17 +11,11 @@ namespace littoral {
 UniqueFaces::UniqueFaces(std::shared_ptr<const SurfaceMesh> input) : mesh(std::move(input)) {
   const SurfaceMesh& all = *mesh;
   if (!all.is_triangle_mesh()) return;
-  MatX3i edges(all.n_faces(), 3);
-  std::vector<int> shared;  // a copy has company at all three edges
-  for (int f = 0; f < all.n_faces(); ++f) {
-    bool alone = false;
-    for (int k = 0; k < 3; ++k) {
-      edges(f, k) = all.side_edge(f, k);
-      alone = alone || all.edge_faces(edges(f, k)).size() < 2;
-    }
-    if (!alone) shared.push_back(f);
-  }
-  const std::vector<RepeatedRow> copies = repeated_rows(edges, shared);
+  const std::vector<RepeatedRow> copies =
+      repeated_faces(all.shared_side_edges().matrix(), [&](int f) {
+        const auto at = all.edge_faces(all.side_edge(f, 0));
+        return at.size() > 2 ? several_faces : at.size() < 2 ? no_face : at[0] == f ? at[1] : at[0];
+      });
   if (copies.empty()) return;
   std::vector<int> first(std::size_t(all.n_faces()), -1);
   for (const RepeatedRow& copy : copies) first[copy.row] = copy.first;

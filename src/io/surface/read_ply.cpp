@@ -29,6 +29,10 @@ class TextBody {
          " of element " + in_quotes(element.name));
   }
   double value(PlyType) { return scan_.number("a number"); }
+  void values(PlyType, std::uint64_t n, double* out) {
+    for (std::uint64_t i = 0; i < n; ++i) out[i] = scan_.number("a number");
+  }
+  std::uint64_t most_left(PlyType) const { return scan_.line_bytes_left(); }
   /// Some programs write more values behind the corners of a face than their header has.
   void end_row(bool may_have_more) {
     if (!may_have_more) scan_.expect_end();
@@ -54,33 +58,32 @@ class BinaryBody {
     row_ = row;
   }
   double value(PlyType type) {
-    const std::size_t size = byte_size(type);
-    if (bytes_left() < size) {
-      fail("the file ends after " + std::to_string(row_) + " of " +
-           std::to_string(element_->count) + " of element " + in_quotes(element_->name));
-    }
-    const char* from = bytes_.data() + at_;
-    at_ += size;
+    double out = 0;
+    values(type, 1, &out);
+    return out;
+  }
+  /// The next n of one type.
+  void values(PlyType type, std::uint64_t n, double* out) {
     switch (type) {
       case PlyType::int8:
-        return load<std::int8_t>(from, order_);
+        return take<std::int8_t>(n, out);
       case PlyType::uint8:
-        return load<std::uint8_t>(from, order_);
+        return take<std::uint8_t>(n, out);
       case PlyType::int16:
-        return load<std::int16_t>(from, order_);
+        return take<std::int16_t>(n, out);
       case PlyType::uint16:
-        return load<std::uint16_t>(from, order_);
+        return take<std::uint16_t>(n, out);
       case PlyType::int32:
-        return load<std::int32_t>(from, order_);
+        return take<std::int32_t>(n, out);
       case PlyType::uint32:
-        return load<std::uint32_t>(from, order_);
+        return take<std::uint32_t>(n, out);
       case PlyType::float32:
-        return load<float>(from, order_);
+        return take<float>(n, out);
       case PlyType::float64:
-        break;
+        return take<double>(n, out);
     }
-    return load<double>(from, order_);
   }
+  std::uint64_t most_left(PlyType type) const { return bytes_left() / byte_size(type); }
   void end_row(bool) {}
   std::size_t bytes_left() const { return bytes_.size() - at_; }
   [[noreturn]] void fail(const std::string& text) const {
@@ -88,6 +91,18 @@ class BinaryBody {
   }
 
  private:
+  template <class T>
+  void take(std::uint64_t n, double* out) {
+    const std::uint64_t there = bytes_left() / sizeof(T);
+    const char* from = bytes_.data() + at_;
+    at_ += std::min(n, there) * sizeof(T);
+    if (there < n) {
+      fail("the file ends after " + std::to_string(row_) + " of " +
+           std::to_string(element_->count) + " of element " + in_quotes(element_->name));
+    }
+    for (std::uint64_t i = 0; i < n; ++i) out[i] = load<T>(from + i * sizeof(T), order_);
+  }
+
   std::string_view bytes_;
   const std::string& name_;
   std::endian order_;
@@ -136,15 +151,23 @@ class PlyReader {
   // Reads all rows of an element: scalar property i into row_[i], list property `list` into list_.
   template <class Visit>
   void rows(const PlyElement& element, int list, const Visit& visit) {
-    row_.assign(element.properties.size(), 0);
+    const std::vector<PlyProperty>& properties = element.properties;
+    row_.assign(properties.size(), 0);
+    std::vector<std::size_t> run_end(properties.size());  // of scalars of one type
+    for (std::size_t i = properties.size(); i-- > 0;) {
+      const bool goes_on = i + 1 < properties.size() && !properties[i].is_list &&
+                           !properties[i + 1].is_list &&
+                           properties[i].type == properties[i + 1].type;
+      run_end[i] = goes_on ? run_end[i + 1] : i + 1;
+    }
     for (std::uint64_t r = 0; r < element.count; ++r) {
       body_.begin_row(element, r);
-      for (std::size_t i = 0; i < element.properties.size(); ++i) {
-        const PlyProperty& p = element.properties[i];
+      for (std::size_t i = 0; i < properties.size(); i = run_end[i]) {
+        const PlyProperty& p = properties[i];
         if (p.is_list) {
           read_list(p, static_cast<int>(i) == list);
         } else {
-          row_[i] = body_.value(p.type);
+          body_.values(p.type, run_end[i] - i, &row_[i]);
         }
       }
       body_.end_row(list == 0);
@@ -154,29 +177,33 @@ class PlyReader {
 
   void read_list(const PlyProperty& p, bool keep) {
     const double length = body_.value(p.count_type);
-    if (!(length >= 0) || length != std::floor(length)) {
+    constexpr double all_whole = 9e15;  // from here on
+    if (!(length >= 0) ||
+        (length < all_whole && static_cast<double>(static_cast<std::int64_t>(length)) != length)) {
       body_.fail("a list with a length that is not a whole number");
     }
     // Every item takes at least a byte, so this also bounds the loop.
     if (length > static_cast<double>(body_.bytes_left())) {
-      body_.fail("a list of " + std::to_string(static_cast<std::int64_t>(std::min(length, 9e15))) +
+      body_.fail("a list of " +
+                 std::to_string(static_cast<std::int64_t>(std::min(length, all_whole))) +
                  " items, the file is shorter");
     }
-    if (keep) list_.clear();
-    for (auto k = static_cast<std::uint64_t>(length); k > 0; --k) {
-      const double value = body_.value(p.type);
-      if (keep) list_.push_back(value);
-    }
+    const auto n = static_cast<std::uint64_t>(length);
+    std::vector<double>& items = keep ? list_ : passed_over_;
+    items.resize(std::min(n, body_.most_left(p.type)));  // what fails is not made room for
+    body_.values(p.type, n, items.data());
   }
 
   int vertex(double value, const char* element, std::uint64_t row) const {
-    if (!(value >= 0 && value < static_cast<double>(n_vertices_)) || value != std::floor(value)) {
+    const bool there = value >= 0 && value < static_cast<double>(n_vertices_);
+    const auto v = there ? static_cast<std::int64_t>(value) : 0;
+    if (!there || static_cast<double>(v) != value) {
       std::string text = std::to_string(value);
       if (value == std::floor(value)) text.erase(text.find('.'));
       body_.fail(std::string(element) + " " + std::to_string(row) + " refers to vertex " + text +
                  ", the file has " + std::to_string(n_vertices_) + " (counted from 0)");
     }
-    return static_cast<int>(value);
+    return static_cast<int>(v);
   }
 
   int needed(const PlyElement& element, const char* property) const {
@@ -299,7 +326,7 @@ class PlyReader {
   Body body_;
   std::uint64_t n_vertices_ = 0;
   PolygonSoup soup_;
-  std::vector<double> row_, list_;
+  std::vector<double> row_, list_, passed_over_;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/large_vector.h"
+#include "base/same_rows.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
 #include "methods/geodesic/polyhedral_window.h"
 
@@ -65,10 +66,12 @@ struct PolyhedralPages {
   std::vector<int> corner_offsets, across;
 
  private:
+  void find_neighbours(const IntrinsicTriangulation& T, const std::vector<char>& is_first);
   void find_sides(const IntrinsicTriangulation& T, const std::vector<char>& is_first);
-  struct Turn;
-  void find_corners(const IntrinsicTriangulation& T, const std::vector<char>& is_first,
-                    std::vector<Turn>& turn);
+  void find_corners(const IntrinsicTriangulation& T, const std::vector<char>& is_first);
+  std::vector<RepeatedRow> find_copies(const IntrinsicTriangulation& T) const;
+  void fetch_edges(std::size_t f) const;  // of triangle f, if there is one
+  void find_bends(const std::vector<RepeatedRow>& copies);
 };
 
 }  // namespace littoral

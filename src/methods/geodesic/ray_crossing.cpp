@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/index.h"
+#include "base/parallel.h"
 #include "methods/geodesic/merge_windows.h"
 
 namespace littoral {
@@ -36,8 +37,13 @@ PolyhedralSearch::PolyhedralSearch(const IntrinsicTriangulation& triangulation)
       distance(VecX::Constant(T.n_vertices, infinity)),
       nearest(VecXi::Constant(T.n_vertices, -1)),
       arrival(T.n_vertices),
-      winner(3 * std::size_t(T.n_faces()), {infinity, 0}),
-      error(VecX::Zero(T.n_vertices)) {}
+      winner(3 * std::size_t(T.n_faces())),
+      error(VecX::Zero(T.n_vertices)) {
+  constexpr std::size_t side_grain = 1 << 16;
+  parallel_for(winner.size(), side_grain, [&](std::size_t begin, std::size_t end) {
+    std::fill(winner.begin() + index(begin), winner.begin() + index(end), Winner{infinity, 0});
+  });
+}
 
 void RayCrossing::clear() {
   offers_.clear();

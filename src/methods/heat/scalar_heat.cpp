@@ -2,40 +2,41 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "base/taken.h"
+#include "methods/heat/heat_matrix.h"
 
 namespace littoral {
 
 namespace {
 
-/// M + t L, lower triangle; rows and columns of `dropped` nodes and of nodes without mass become
-/// those of the identity.
-SpMat heat_matrix(const Calculus& C, double t, const std::vector<char>& dropped) {
-  Triplets entries;
-  entries.reserve(C.L.nonZeros() + C.L.rows());
-  auto drop = [&](Eigen::Index i) { return dropped[i] || !(C.M[i] > 0); };
-  for (int j = 0; j < C.L.outerSize(); ++j) {
-    entries.emplace_back(j, j, drop(j) ? 1.0 : C.M[j]);
-    for (SpMat::InnerIterator it(C.L, j); it; ++it)
-      if (!drop(j) && !drop(it.row())) entries.emplace_back(it.row(), j, t * it.value());
-  }
-  SpMat A(C.L.rows(), C.L.cols());
-  A.setFromTriplets(entries.begin(), entries.end());
-  return A;
+/// A with rows and columns of the marked unknowns those of the identity, and all entries in their
+/// places. Lower triangle, diagonal first.
+std::shared_ptr<const SpMat> with_identity(const SpMat& A, const std::vector<char>& dropped) {
+  SpMat out = A;
+  for (int j = 0; j < out.outerSize(); ++j)
+    for (SpMat::InnerIterator it(out, j); it; ++it)
+      if (dropped[j] || dropped[it.row()]) it.valueRef() = it.row() == j ? 1 : 0;
+  return shared_taken(out);
 }
 
 }  // namespace
 
 ScalarHeat::ScalarHeat(const Calculus& C, double t, SolveHint hint, const Ordering& order,
-                       const Task& task)
+                       const std::shared_ptr<const Elimination>& structure, const Task& task)
     : root_t_(std::sqrt(t)) {
-  auto system = [&](const std::vector<char>& dropped) {
-    return std::make_shared<const HeatSystem<double>>(
-        std::make_shared<const SpMat>(heat_matrix(C, t, dropped)), 1, decay_lengths(C.M, t), hint,
-        task, order);
+  const auto system = [&](std::shared_ptr<const SpMat> A) {
+    return std::make_shared<const HeatSystem<double>>(std::move(A), 1, decay_lengths(C.M, t), hint,
+                                                      task, order, structure);
   };
-  neumann_ = system(std::vector<char>(C.boundary.size(), 0));
-  if (std::find(C.boundary.begin(), C.boundary.end(), 1) != C.boundary.end())
-    dirichlet_ = system(C.boundary);
+  const auto is_set = [](char marked) { return marked != 0; };
+  std::vector<char> dropped(C.boundary.size(), 0);
+  for (Eigen::Index i = 0; i < C.M.size(); ++i) dropped[i] = !(C.M[i] > 0);
+  auto A = heat_matrix<double>([&](const Task&) { return C.L; }, C.M, t, task);
+  if (std::ranges::any_of(dropped, is_set)) A = with_identity(*A, dropped);
+  if (std::ranges::any_of(C.boundary, is_set)) dirichlet_ = system(with_identity(*A, C.boundary));
+  neumann_ = system(std::move(A));
 }
 
 CellField ScalarHeat::flow(const Calculus& C, const VecX& u0, const Task& task,

@@ -17,7 +17,10 @@ namespace littoral {
 /// there.
 class ScalarHeat {
  public:
-  ScalarHeat(const Calculus& C, double t, SolveHint hint, const Ordering& order, const Task& task);
+  /// structure: of the factor of C.L with its whole diagonal, if it is known; both matrices have
+  /// it.
+  ScalarHeat(const Calculus& C, double t, SolveHint hint, const Ordering& order,
+             const std::shared_ptr<const Elimination>& structure, const Task& task);
 
   /// Adds -grad u of all batches of sources to `field`: each cell takes the batch whose
   /// gradient is longest there, that is the nearest. A sum would turn the directions of two sources

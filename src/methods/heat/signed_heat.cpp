@@ -91,7 +91,8 @@ void SignedHeatSolver::factor_heat(double time_scale, Diffusions diffusions, Tas
   root_t_ = ops_->vector.h * std::sqrt(time_scale);
   const double t = root_t_ * root_t_;
   if (diffusions.scalars)
-    scalar_heat_.emplace(ops_->scalar, t, hint_, *order_, task.stage(0.2, "factor heat"));
+    scalar_heat_.emplace(ops_->scalar, t, hint_, *order_, poisson_->structure(),
+                         task.stage(0.2, "factor heat"));
   if (diffusions.vectors)
     heat_.emplace(ops_->vector, t, hint_, order_, task.stage(0.4, "factor vector heat"));
 }

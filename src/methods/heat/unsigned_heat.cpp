@@ -24,16 +24,17 @@ UnsignedHeatSolver::UnsignedHeatSolver(std::shared_ptr<const Operators> ops,
       hint_(hint),
       root_t_(ops_->scalar.h * std::sqrt(options.time_scale > 0 ? options.time_scale : 1)),
       order_(dissection(ops_->scalar.L, task.stage(0.3, "order"))),
-      heat_(ops_->scalar, root_t_ * root_t_, hint, order_, task.stage(0.4, "factor heat")),
       poisson_(std::make_shared<const Poisson>(
           std::shared_ptr<const SpMat>(ops_, &ops_->scalar.L), ops_->scalar.component,
-          ops_->scalar.n_components, task.stage(0.3, "factor Poisson"), order_, solver_for(hint))) {
-}
+          ops_->scalar.n_components, task.stage(0.3, "factor Poisson"), order_, solver_for(hint))),
+      heat_(ops_->scalar, root_t_ * root_t_, hint, order_, poisson_->structure(),
+            task.stage(0.4, "factor heat")) {}
 
 UnsignedHeatSolver UnsignedHeatSolver::with_time_scale(double time_scale, const Task& task) const {
   UnsignedHeatSolver out = *this;
   out.root_t_ = ops_->scalar.h * std::sqrt(time_scale);
-  out.heat_ = ScalarHeat(ops_->scalar, out.root_t_ * out.root_t_, hint_, order_, task);
+  out.heat_ = ScalarHeat(ops_->scalar, out.root_t_ * out.root_t_, hint_, order_,
+                         poisson_->structure(), task);
   return out;
 }
 

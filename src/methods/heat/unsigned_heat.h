@@ -45,8 +45,8 @@ class UnsignedHeatSolver {
   SolveHint hint_;
   double root_t_;
   Ordering order_;  // of the nodes
-  ScalarHeat heat_;
   std::shared_ptr<const Poisson> poisson_;
+  ScalarHeat heat_;
 };
 
 }  // namespace littoral

@@ -1,6 +1,7 @@
 #include "solve/direct/elimination.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 
@@ -17,17 +18,35 @@ void sums_to_begins(std::vector<int>& counts) {
 }
 
 /// Calls put(e, a, b) for entry e of a symmetric matrix's lower triangle, whose column and row have
-/// the new numbers a and b.
-template <class Scalar, class Put>
+/// the new numbers a and b, and some entries before that fetch(a, b): what is numbered anew lies in
+/// any order.
+template <class Scalar, class Fetch, class Put>
 void for_entries(const Eigen::SparseMatrix<Scalar>& lower, const std::vector<int>& new_of,
-                 const Task& task, const Put& put) {
+                 const Task& task, const Fetch& fetch, const Put& put) {
+  constexpr int ahead = 16, half = ahead / 2;
+  struct Entry {
+    int a, b;
+  };
+  std::array<Entry, ahead> ring;
+  const int n = static_cast<int>(lower.nonZeros());
+  const int* const row_of = lower.innerIndexPtr();
   int e = 0;
   for (int j = 0; j < lower.outerSize(); ++j) {
     stop_now_and_then(j, task);
     const int a = new_of[j];
-    for (typename Eigen::SparseMatrix<Scalar>::InnerIterator it(lower, j); it; ++it, ++e)
-      put(e, a, new_of[it.row()]);
+    for (typename Eigen::SparseMatrix<Scalar>::InnerIterator it(lower, j); it; ++it, ++e) {
+      if (e + ahead < n) __builtin_prefetch(&new_of[row_of[e + ahead]]);
+      Entry& here = ring[e % ahead];
+      if (e >= half) {
+        const Entry& due = ring[(e - half) % ahead];
+        put(e - half, due.a, due.b);
+      }
+      here = {a, new_of[it.row()]};
+      fetch(here.a, here.b);
+    }
   }
+  for (int left = std::max(0, e - half); left < e; ++left)
+    put(left, ring[left % ahead].a, ring[left % ahead].b);
 }
 
 /// Parents of the unknowns in the elimination tree, and how many entries each column of the
@@ -42,15 +61,24 @@ Tree elimination_tree(const Eigen::SparseMatrix<Scalar>& lower, const std::vecto
   const int n = int_size(new_of);
   Tree tree{std::vector<int>(new_of.size(), -1), std::vector<int>(new_of.size(), 0)};
   std::vector<int> begin(new_of.size() + 1, 0);  // row -> columns left of the diagonal
-  for_entries(lower, new_of, task, [&](int, int a, int b) {
-    ++tree.entries[std::min(a, b)];
-    if (a != b) ++begin[std::max(a, b)];
-  });
+  for_entries(
+      lower, new_of, task,
+      [&](int a, int b) {
+        __builtin_prefetch(&tree.entries[std::min(a, b)]);
+        __builtin_prefetch(&begin[std::max(a, b)]);
+      },
+      [&](int, int a, int b) {
+        ++tree.entries[std::min(a, b)];
+        if (a != b) ++begin[std::max(a, b)];
+      });
   sums_to_begins(begin);
   std::vector<int> left(begin[new_of.size()]), at = begin;
-  for_entries(lower, new_of, task, [&](int, int a, int b) {
-    if (a != b) left[at[std::max(a, b)]++] = std::min(a, b);
-  });
+  for_entries(
+      lower, new_of, task,
+      [&](int a, int b) { __builtin_prefetch(&left.data()[at[std::max(a, b)]]); },
+      [&](int, int a, int b) {
+        if (a != b) left[at[std::max(a, b)]++] = std::min(a, b);
+      });
   std::vector<int>& ancestor = at;
   std::fill(ancestor.begin(), ancestor.end(), -1);
   for (int i = 0; i < n; ++i) {
@@ -197,11 +225,18 @@ Elimination::Elimination(const Eigen::SparseMatrix<Scalar>& lower, const Orderin
   entry_row.resize(entry_from.size());  // rows of the matrix, for now
   {
     std::vector<int> at = entry_begin;
-    for_entries(lower, new_of, task, [&](int e, int a, int b) {
-      const int to = at[std::min(a, b)]++;
-      entry_from[to] = b >= a ? e : ~e;
-      entry_row[to] = std::max(a, b);
-    });
+    for_entries(
+        lower, new_of, task,
+        [&](int a, int b) {
+          const int to = at[std::min(a, b)];
+          __builtin_prefetch(&entry_from.data()[to]);
+          __builtin_prefetch(&entry_row.data()[to]);
+        },
+        [&](int e, int a, int b) {
+          const int to = at[std::min(a, b)]++;
+          entry_from[to] = b >= a ? e : ~e;
+          entry_row[to] = std::max(a, b);
+        });
   }
   first = supernodes(tree.parent, column_counts(entry_begin, entry_row, tree.parent, task));
   stop_if_cancelled(task);

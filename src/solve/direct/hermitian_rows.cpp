@@ -1,6 +1,7 @@
 #include "solve/direct/hermitian_rows.h"
 
 #include <algorithm>
+#include <mutex>
 #include <utility>
 
 #include "base/groups.h"
@@ -16,30 +17,20 @@ class RowsOfLower : public HermitianRows<Scalar> {
   using Matrix = Eigen::SparseMatrix<Scalar>;
 
   RowsOfLower(std::shared_ptr<const Matrix> lower, int block)
-      : A_(std::move(lower)),
-        block_(block),
-        beside_(groups_of<int>(std::size_t(A_->cols() / block), [&](const auto& put) {
-          for (int j = 0; j < A_->cols(); j += block_)  // a block's first column names all of them
-            for (typename Matrix::InnerIterator it(*A_, j); it; ++it) {
-              const int row = it.row() / block_, column = j / block_;
-              if (it.row() % block_ != 0 || row == column) continue;
-              put(row, column);
-              put(column, row);
-            }
-        })) {}
+      : A_(std::move(lower)), block_(block) {}
 
   int size() const override { return static_cast<int>(A_->cols()) / block_; }
   int block() const override { return block_; }
 
   void neighbours(int i, std::vector<int>& out) const override {
-    const auto beside = beside_.at(i);
-    out.assign(beside.begin(), beside.end());
+    const auto others = beside().at(i);
+    out.assign(others.begin(), others.end());
   }
 
   void row(int i, BlockRow<Scalar>& out) const override {
     out.blocks.assign(1, i);
-    const auto beside = beside_.at(i);
-    out.blocks.insert(out.blocks.end(), beside.begin(), beside.end());
+    const auto others = beside().at(i);
+    out.blocks.insert(out.blocks.end(), others.begin(), others.end());
     out.values.clear();
     for (const int j : out.blocks)
       for (int r = i * block_; r < (i + 1) * block_; ++r)
@@ -55,9 +46,26 @@ class RowsOfLower : public HermitianRows<Scalar> {
     return found != end && *found == row ? A_->valuePtr()[found - A_->innerIndexPtr()] : Scalar(0);
   }
 
-  std::shared_ptr<const Matrix> A_;
-  int block_;
-  Groups<int> beside_;
+  /// Made by who first asks for a row: where there is a factor nobody does.
+  const Groups<int>& beside() const {
+    std::call_once(made_, [&] {
+      beside_ = groups_of<int>(std::size_t(size()), [&](const auto& put) {
+        for (int j = 0; j < A_->cols(); j += block_)  // a block's first column names all of them
+          for (typename Matrix::InnerIterator it(*A_, j); it; ++it) {
+            const int row = it.row() / block_, column = j / block_;
+            if (it.row() % block_ != 0 || row == column) continue;
+            put(row, column);
+            put(column, row);
+          }
+      });
+    });
+    return beside_;
+  }
+
+  const std::shared_ptr<const Matrix> A_;
+  const int block_;
+  mutable std::once_flag made_;
+  mutable Groups<int> beside_;
 };
 
 }  // namespace

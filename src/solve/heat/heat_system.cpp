@@ -40,12 +40,14 @@ Eigen::Index largest_to_factor(SolveHint hint) {
 
 template <class Scalar>
 HeatSystem<Scalar>::HeatSystem(std::shared_ptr<const Matrix> lower, int block, VecX size,
-                               SolveHint hint, const Task& task, Ordering order)
+                               SolveHint hint, const Task& task, Ordering order,
+                               std::shared_ptr<const Elimination> known)
     : A_(std::move(lower)),
       rows_(rows_of(A_, block)),
       block_(block),
       windows_(rows_, std::move(size),
-               order.empty() ? order_of_blocks(*A_, block, task) : std::move(order)) {
+               order.empty() ? order_of_blocks(*A_, block, task) : std::move(order)),
+      structure_(std::move(known)) {
   if (A_->rows() > largest_to_factor(hint)) return;
   const auto structure = eliminated(*A_, task);
   const std::size_t limit = hint == SolveHint::single_rhs ? largest_for_one_solve : largest_factor;
@@ -61,6 +63,7 @@ HeatSystem<Scalar>::HeatSystem(std::shared_ptr<const HermitianRows<Scalar>> rows
 template <class Scalar>
 std::shared_ptr<const Elimination> HeatSystem<Scalar>::eliminated(const Matrix& A,
                                                                   const Task& task) const {
+  if (structure_) return structure_;
   return std::make_shared<const Elimination>(A, in_blocks(windows_.order(), block_), task);
 }
 

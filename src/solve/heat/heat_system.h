@@ -38,9 +38,10 @@ class HeatSystem {
   /// lower: the matrix's lower triangle; unknowns come in blocks of `block` (a real matrix of
   /// complex unknowns has 2). size: blocks; sqrt(M / t), see HeatWindows. order: of elimination, of
   /// the blocks; found here if empty. One factorization is made if it takes less than 4 GB for many
-  /// solves, .4 GB for one.
+  /// solves, .4 GB for one. structure: of the factor in this order, if it is known.
   HeatSystem(std::shared_ptr<const Matrix> lower, int block, VecX size, SolveHint hint,
-             const Task& task, Ordering order = {});
+             const Task& task, Ordering order = {},
+             std::shared_ptr<const Elimination> structure = nullptr);
   /// A matrix too large to be factored, which is never made as a whole unless windows do not fit.
   HeatSystem(std::shared_ptr<const HermitianRows<Scalar>> rows, VecX size, const Ordering& order);
 
@@ -76,6 +77,7 @@ class HeatSystem {
   std::shared_ptr<const HermitianRows<Scalar>> rows_;
   int block_;
   HeatWindows<Scalar> windows_;
+  std::shared_ptr<const Elimination> structure_;  // null where it is not known
   std::optional<Cholesky<Scalar>> factor_;
 };
 

@@ -54,6 +54,8 @@ class Poisson {
 
   double nonzeros() const;  // of the factor or the multigrid levels
   bool iterates() const { return structure_ == nullptr; }
+  /// Of the factor of L with its whole diagonal; null with multigrid.
+  const std::shared_ptr<const Elimination>& structure() const { return structure_; }
   const DefiniteSystem& system(const Task& task = {}) const;  // without constraints
 
  private:

@@ -246,21 +246,24 @@ VecX Calculus::divergence(const VecX& Y) const {
 Calculus triangle_calculus(const std::shared_ptr<const IntrinsicTriangulation>& T,
                            const Task& task) {
   Calculus C;
-  C.L = cotan_laplacian(*T, task);
-  C.G = gradient(T);
-  C.A.resize(T->n_faces());
-  C.M = VecX::Zero(T->n_vertices);
-  parallel_for(T->n_faces(), face_grain, [&](std::size_t begin, std::size_t end) {
-    for (Eigen::Index f = index(begin); f < index(end); ++f)
+  parallel_for(2, 1, [&](std::size_t half, std::size_t) {  // neither needs anything of the other
+    if (half == 0) {
+      C.L = cotan_laplacian(*T, task);
+      return;
+    }
+    C.G = gradient(T);
+    C.A.resize(T->n_faces());
+    for (int f = 0; f < T->n_faces(); ++f)
       C.A[f] = area_of_lengths(T->length(f, 0), T->length(f, 1), T->length(f, 2));
+    C.M = VecX::Zero(T->n_vertices);
+    add_thirds(C.A, T->faces.matrix(), C.M);
+    C.component = T->component;
+    C.boundary.assign(T->n_vertices, 0);
+    for (int e = 0; e < T->n_edges(); ++e)
+      if (T->edge_use[e] == 1) C.boundary[T->edges(e, 0)] = C.boundary[T->edges(e, 1)] = 1;
   });
-  add_thirds(C.A, T->faces.matrix(), C.M);
   C.h = T->mean_edge_length;
-  C.component = T->component;
   C.n_components = T->n_components;
-  C.boundary.assign(T->n_vertices, 0);
-  for (int e = 0; e < T->n_edges(); ++e)
-    if (T->edge_use[e] == 1) C.boundary[T->edges(e, 0)] = C.boundary[T->edges(e, 1)] = 1;
   return C;
 }
 
@@ -277,18 +280,23 @@ Operators triangle_operators(const std::shared_ptr<const IntrinsicTriangulation>
   VectorDiffusion& V = ops.vector;
   V.n = T->n_edges();
   V.ends = T->edges;
-  V.M = VecX::Zero(V.n);
-  add_thirds(ops.scalar.A, T->side_edge.matrix(), V.M);  // eq. 7
   if (T->has_seams) {
     V.L_real = [T](const Task&) { return connection_laplacian_real(*T); };
   } else {
     V.L = [T](const Task& making) { return connection_laplacian(*T, making); };
     V.L_rows = [T] { return connection_rows(T); };
   }
-  V.to_cells = edges_to_faces(T);
   V.h = T->mean_edge_length / 2;
   task.checkpoint();
-  find_pieces(*T, V);
+  parallel_for(2, 1, [&](std::size_t half, std::size_t) {  // neither needs anything of the other
+    if (half == 0) {
+      V.M = VecX::Zero(V.n);
+      add_thirds(ops.scalar.A, T->side_edge.matrix(), V.M);  // eq. 7
+      V.to_cells = edges_to_faces(T);
+    } else {
+      find_pieces(*T, V);
+    }
+  });
   return ops;
 }
 

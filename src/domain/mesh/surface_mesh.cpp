@@ -81,8 +81,9 @@ std::vector<int> first_sides_by_ends(const PolygonSoup& soup) {
   using Side = std::uint64_t;  // the larger vertex, then the side: ascending as sides are given
   const std::size_t n = std::size_t(soup.n_vertices());
   // Sides with the same smaller vertex are few: match them there. Each range of vertices is done by
-  // one thread, which goes over all faces for it.
-  const std::size_t ranges = std::size_t(std::min(thread_count(), 4));
+  // one thread, which goes over all faces for it; the first ranges have more than the last.
+  const std::size_t threads = std::size_t(std::min(thread_count(), 4));
+  const std::size_t ranges = threads > 1 ? 2 * threads : 1;
   const std::size_t range = std::max(n / ranges + 1, vertex_grain);
   const auto for_sides = [&](std::size_t from, std::size_t to, const auto& visit) {
     for (int f = 0; f < soup.n_faces(); ++f) {

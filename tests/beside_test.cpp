@@ -20,13 +20,13 @@ TEST(Beside, RunsWhileTheCallerGoesOn) {
   set_thread_count(2);
   for (int round = 0; round < 20; ++round) {
     std::atomic<int> there{0};
-    Beside work([&] {
+    Beside work([&](const Task&) {
       ++there;
       while (there < 2) std::this_thread::yield();
     });
     while (there < 1) std::this_thread::yield();
     ++there;
-    work.wait({});
+    work.finish({});
     EXPECT_EQ(there, 2);
   }
   set_thread_count(0);
@@ -37,54 +37,59 @@ TEST(Beside, IsDoneOnceAsTheCallerWould) {
   const FlushSubnormals flush;
   int done = 0;
   std::uint64_t mode = 0;
-  Beside work([&] {
+  Beside work([&](const Task&) {
     ++done;
     mode = floating_point_mode();
   });
-  ASSERT_TRUE(work.begun());
-  work.wait({});
+  work.finish({});
   EXPECT_EQ(done, 1);
   EXPECT_EQ(mode, floating_point_mode());
   set_thread_count(0);
 }
 
 TEST(Beside, LeavesItToTheCallerWhereThereIsOneThreadOnly) {
-  bool done = false;
+  const auto done_here = [] {
+    std::thread::id by;
+    {
+      const Beside forgotten([&](const Task&) { by = std::this_thread::get_id(); });
+    }
+    EXPECT_EQ(by, std::thread::id());
+    Beside work([&](const Task&) { by = std::this_thread::get_id(); });
+    EXPECT_EQ(by, std::thread::id());
+    work.finish({});
+    return by == std::this_thread::get_id();
+  };
   set_thread_count(1);
-  {
-    EXPECT_FALSE(Beside([&] { done = true; }).begun());
-  }
+  EXPECT_TRUE(done_here());
   set_thread_count(2);
-  std::atomic<int> begun{0};
-  parallel_for(4, 1, [&](std::size_t, std::size_t) { begun += Beside([] {}).begun(); });
-  EXPECT_EQ(begun, 0);
-  EXPECT_FALSE(done);
+  std::atomic<int> here{0};
+  parallel_for(4, 1, [&](std::size_t, std::size_t) { here += done_here(); });
+  EXPECT_EQ(here, 4);
   set_thread_count(0);
 }
 
 TEST(Beside, ThrowsWhatTheWorkThrew) {
   set_thread_count(2);
-  Beside work([] { throw std::runtime_error("beside"); });
+  Beside work([](const Task&) { throw std::runtime_error("beside"); });
   try {
-    work.wait({});
+    work.finish({});
     ADD_FAILURE() << "nothing was thrown";
   } catch (const std::runtime_error& error) {
     EXPECT_STREQ(error.what(), "beside");
   }
-  const Beside forgotten([] { throw std::runtime_error("beside"); });
+  const Beside forgotten([](const Task&) { throw std::runtime_error("beside"); });
   set_thread_count(0);
 }
 
 /// The work ends only when the one that waits for it has given up.
 TEST(Beside, WaitingCanBeCancelled) {
   set_thread_count(2);
-  const CancelToken cancel, stop;
-  Beside work([&] {
+  const CancelToken cancel;
+  Beside work([&](const Task& until_nobody_waits) {
     cancel.cancel();
-    while (!stop.cancelled()) std::this_thread::yield();
+    while (!until_nobody_waits.cancelled()) std::this_thread::yield();
   });
-  EXPECT_THROW(work.wait(Task(cancel)), Cancelled);
-  stop.cancel();
+  EXPECT_THROW(work.finish(Task(cancel)), Cancelled);
   set_thread_count(0);
 }
 
@@ -93,7 +98,7 @@ TEST(Beside, EndsBeforeItIsGone) {
   for (int round = 0; round < 20; ++round) {
     std::atomic<bool> inside{false};
     {
-      const Beside work([&] {
+      const Beside work([&](const Task&) {
         inside = true;
         std::this_thread::yield();
         inside = false;

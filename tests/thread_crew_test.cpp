@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <stdexcept>
 #include <thread>
@@ -101,6 +102,42 @@ TEST(ThreadCrew, ThreadsThatStayTakeOverTheCallersModeAnew) {
     EXPECT_EQ(same_modes(), 2);
   }
   EXPECT_EQ(same_modes(), 2);
+  set_thread_count(0);
+}
+
+TEST(KeepThreads, LoopsAreSharedWithTheSameThreads) {
+  set_thread_count(2);
+  const auto others = [] {  // each of the two waits for the other
+    std::atomic<int> there{0};
+    std::array<std::thread::id, 2> by;
+    parallel_for(2, 1, [&](std::size_t i, std::size_t) {
+      by[i] = std::this_thread::get_id();
+      ++there;
+      while (there < 2) std::this_thread::yield();
+    });
+    return by[by[0] == std::this_thread::get_id()];
+  };
+  {
+    const KeepThreads keep;
+    const std::thread::id other = others();
+    for (int round = 0; round < 50; ++round) ASSERT_EQ(others(), other);
+    {
+      const KeepThreads inner;
+      EXPECT_NE(others(), other);
+    }
+    EXPECT_EQ(others(), other);
+    set_thread_count(1);
+    parallel_for(8, 1,
+                 [&](std::size_t, std::size_t) { EXPECT_NE(std::this_thread::get_id(), other); });
+    set_thread_count(2);
+    EXPECT_THROW(parallel_for(8, 1,
+                              [](std::size_t i, std::size_t) {
+                                if (i == 5) throw std::runtime_error("fifth");
+                              }),
+                 std::runtime_error);
+    EXPECT_EQ(others(), other);
+  }
+  EXPECT_NE(others(), std::this_thread::get_id());
   set_thread_count(0);
 }
 

@@ -9,19 +9,19 @@
 namespace littoral {
 
 /// Work on a thread of its own while the caller goes on, where more than one thread is to be used
-/// and the system has a place for another.
+/// and the system has a place for another; otherwise work that is put off.
 class Beside {
  public:
-  explicit Beside(std::function<void()> work);
-  /// Waits until it has ended.
+  /// What the work is given asks it to stop when nobody waits for it any more.
+  explicit Beside(std::function<void(const Task&)> work);
+  /// Returns when it has stopped.
   ~Beside();
   Beside(const Beside&) = delete;
   Beside& operator=(const Beside&) = delete;
 
-  /// Is there such a thread? Otherwise nothing has been done, and the caller must do it.
-  bool begun() const;
-  /// Returns when it is done; throws what it threw, and Cancelled within 0.05 s of a request.
-  void wait(const Task& task);
+  /// Returns when it is done, which is here if nothing has been done; throws what it threw, and
+  /// Cancelled within 0.05 s of a request. Once.
+  void finish(const Task& task);
 
  private:
   struct Shared;

@@ -27,6 +27,7 @@ namespace {
 thread_local int requested_threads = 0;
 std::atomic<int> most_threads{std::numeric_limits<int>::max()};
 thread_local bool inside_parallel = false;
+thread_local ThreadCrew* kept_crew = nullptr;
 }  // namespace
 
 void set_thread_count(int threads) { requested_threads = std::max(0, threads); }
@@ -105,6 +106,10 @@ void parallel_for(std::size_t n, std::size_t grain,
     for (std::size_t p = 0; p < pieces; ++p) piece(p);
     return;
   }
+  if (kept_crew != nullptr && kept_crew->size() == thread_count()) {
+    kept_crew->run(pieces, piece);
+    return;
+  }
   SharedLoop loop(pieces, piece);
   std::vector<std::thread> threads;
   add_threads(threads, workers - 1, [&] { loop.work(); });
@@ -114,17 +119,19 @@ void parallel_for(std::size_t n, std::size_t grain,
 }
 
 struct Beside::Shared {
-  explicit Shared(std::function<void()> what) : work(std::move(what)) {}
+  explicit Shared(std::function<void(const Task&)> what) : work(std::move(what)) {}
 
-  const std::function<void()> work;
-  const std::function<void(std::size_t)> piece = [this](std::size_t) { work(); };
+  const std::function<void(const Task&)> work;
+  const CancelToken stop;
+  const std::function<void(std::size_t)> piece = [this](std::size_t) { work(Task(stop)); };
   SharedLoop loop{1, piece};
   std::promise<void> over;
   std::future<void> ended = over.get_future();
   std::vector<std::thread> threads;  // one or none
 };
 
-Beside::Beside(std::function<void()> work) : shared_(std::make_unique<Shared>(std::move(work))) {
+Beside::Beside(std::function<void(const Task&)> work)
+    : shared_(std::make_unique<Shared>(std::move(work))) {
   if (thread_count() > 1 && !inside_parallel)
     add_threads(shared_->threads, 1, [shared = shared_.get()] {
       shared->loop.work();
@@ -133,12 +140,15 @@ Beside::Beside(std::function<void()> work) : shared_(std::make_unique<Shared>(st
 }
 
 Beside::~Beside() {
+  shared_->stop.cancel();
   for (auto& thread : shared_->threads) thread.join();
 }
 
-bool Beside::begun() const { return !shared_->threads.empty(); }
-
-void Beside::wait(const Task& task) {
+void Beside::finish(const Task& task) {
+  if (shared_->threads.empty()) {
+    shared_->work(task);
+    return;
+  }
   while (shared_->ended.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready)
     stop_if_cancelled(task);
   shared_->loop.rethrow();
@@ -229,5 +239,9 @@ void ThreadCrew::run(std::size_t n, const std::function<void(std::size_t)>& body
   shared_->end();
   loop.rethrow();
 }
+
+KeepThreads::KeepThreads() : before_(kept_crew) { kept_crew = &crew_; }
+
+KeepThreads::~KeepThreads() { kept_crew = before_; }
 
 }  // namespace littoral

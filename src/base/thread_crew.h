@@ -1,6 +1,6 @@
 #pragma once
 // Threads that stay: for loops so short that starting threads for each would cost more than they
-// save.
+// save, or is felt.
 
 #include <cstddef>
 #include <functional>
@@ -26,6 +26,20 @@ class ThreadCrew {
  private:
   struct Shared;
   std::unique_ptr<Shared> shared_;
+};
+
+/// While it lives, every `parallel_for` of the thread that made it is shared with the same crew.
+/// To be ended by that thread, the last one first.
+class KeepThreads {
+ public:
+  KeepThreads();
+  ~KeepThreads();
+  KeepThreads(const KeepThreads&) = delete;
+  KeepThreads& operator=(const KeepThreads&) = delete;
+
+ private:
+  ThreadCrew crew_;
+  ThreadCrew* const before_;
 };
 
 }  // namespace littoral

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/fetch_ahead.h"
 #include "base/now_and_then.h"
 #include "base/parallel.h"
 #include "base/task.h"
@@ -68,8 +69,8 @@ Eigen::SparseMatrix<Scalar> sum_over_triangles(int n, const Eigen::Ref<const Mat
       for (int k = 0; k < 3; ++k) {
         if (const Eigen::Index next = first + i + ahead; next < unknowns.rows()) {
           const int column = unknowns(next, k);
-          __builtin_prefetch(&value[begin[column]]);
-          __builtin_prefetch(&row_of[end[column]]);
+          fetch_ahead(&value[begin[column]]);
+          fetch_ahead(&row_of[end[column]]);
         }
         const TriangleTerms<Scalar>& t = batch[i];
         value[begin[unknowns(first + i, k)]] += t.diagonal[k];

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/disjoint_sets.h"
+#include "base/fetch_ahead.h"
 #include "base/index.h"
 #include "base/parallel.h"
 #include "operators/connection_laplacian.h"
@@ -23,7 +24,7 @@ void add_thirds(const VecX& A, const Eigen::Ref<const MatX3i>& unknowns, VecX& M
   constexpr Eigen::Index ahead = 12;  // triangles: unknowns are met in any order
   for (Eigen::Index f = 0; f < A.size(); ++f)
     for (int k = 0; k < 3; ++k) {
-      if (f + ahead < A.size()) __builtin_prefetch(&M[unknowns(f + ahead, k)]);
+      if (f + ahead < A.size()) fetch_ahead(&M[unknowns(f + ahead, k)]);
       M[unknowns(f, k)] += A[f] / 3;
     }
 }

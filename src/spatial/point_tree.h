@@ -6,6 +6,7 @@
 #include <bit>
 #include <vector>
 
+#include "base/fetch_ahead.h"
 #include "littoral/types.h"
 #include "spatial/bound_node.h"
 #include "spatial/point_kernels.h"
@@ -66,7 +67,7 @@ class PointTree {
   int build(const MatX3& points, std::vector<int>& order, int begin, int end);
   static void fetch(const Leaf& leaf) {
     const char* const bytes = reinterpret_cast<const char*>(&leaf);
-    for (std::size_t line = 0; line < sizeof leaf; line += 64) __builtin_prefetch(bytes + line);
+    for (std::size_t line = 0; line < sizeof leaf; line += 64) fetch_ahead(bytes + line);
   }
   template <class Visit>
   void search(const Vec3& q, double bound, Visit&& visit) const;

@@ -29,7 +29,7 @@ VecX regularized_in_space(const Calculus& C, const KnownDistances& known,
   const auto ops = std::make_shared<Operators>();
   ops->scalar = C;
   const Stopwatch watch(report, "solve");
-  const RegularizedSolver method(ops, Regularizer::dirichlet, {}, task,
+  const RegularizedSolver method(ops, Regularizer::dirichlet, {}, task, SolveHint::single_rhs,
                                  ConstrainedSystem::Rows::many);
   AdmmState state;
   const AdmmResult result = method.minimize(known, options, state, task, sign);

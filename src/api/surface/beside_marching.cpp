@@ -23,7 +23,10 @@ constexpr double remarkable = 0.02;
 
 BesideMarching::BesideMarching(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
                                PlacedSources placed)
-    : mesh_(mesh), T_(T), placed_(std::move(placed)), march_([this] { walk(Task(stop_)); }) {}
+    : mesh_(mesh),
+      T_(T),
+      placed_(std::move(placed)),
+      march_([this](const Task& task) { walk(task); }) {}
 
 void BesideMarching::walk(const Task& task) {
   Report quiet;
@@ -32,10 +35,7 @@ void BesideMarching::walk(const Task& task) {
 
 double BesideMarching::report(const VecX& values, const Task& task, Report& report) {
   const Stopwatch watch(report, "check");
-  if (march_.begun())
-    march_.wait(task);
-  else
-    walk(task);
+  march_.finish(task);
   const bool completes = std::any_of(placed_.pieces.begin(), placed_.pieces.end(),
                                      [](const CurvePiece& piece) { return piece.is_signed; });
   struct Sum {

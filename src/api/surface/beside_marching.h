@@ -16,8 +16,6 @@ class BesideMarching {
  public:
   /// The mesh and its triangulation must stay.
   BesideMarching(const SurfaceMesh& mesh, const IntrinsicTriangulation& T, PlacedSources placed);
-  /// Stops the march.
-  ~BesideMarching() { stop_.cancel(); }
 
   /// Reports the mean of | |values| - d | over the vertices of a component, over the largest d
   /// there, d by fast marching from the sources; the worst of the components. With signed curves,
@@ -30,7 +28,6 @@ class BesideMarching {
   const SurfaceMesh& mesh_;
   const IntrinsicTriangulation& T_;
   const PlacedSources placed_;
-  const CancelToken stop_;
   VecX d_;  // vertices, when march_ has ended
   Beside march_;
 };

@@ -40,9 +40,10 @@ void localise(VecX& V, const std::vector<std::pair<int, Complex>>& given, double
   Regularized options;
   options.alpha = 0;
   AdmmState state;
-  const VecX d = RegularizedSolver(std::move(ops), Regularizer::dirichlet, {}, task)
-                     .minimize(known, options, state, task)
-                     .u;
+  const VecX d =
+      RegularizedSolver(std::move(ops), Regularizer::dirichlet, {}, task, SolveHint::single_rhs)
+          .minimize(known, options, state, task)
+          .u;
   const double sigma = width * std::sqrt(C.A.sum());
   for (int f = 0; f < T.n_faces(); ++f) {
     const double mean = (d[T.faces(f, 0)] + d[T.faces(f, 1)] + d[T.faces(f, 2)]) / 3;
@@ -156,9 +157,10 @@ double longest_at_corners(const P2Elements<2>& E, const VecX& u) {
 /// Triangle meshes: directions read and interpolated, elements, one factorization.
 class RegularizedTriangles {
  public:
-  RegularizedTriangles(SurfaceDomain domain, const Regularized& options, const Task& task,
-                       Report& report)
+  RegularizedTriangles(SurfaceDomain domain, const Regularized& options, SolveHint hint,
+                       const Task& task, Report& report)
       : domain_(std::move(domain)),
+        hint_(hint),
         given_(without_needles(triangulation_of(domain_, report), report)),
         used_{given_, nullptr} {
     const auto regularizer = options.alpha > 0 ? options.regularizer : Regularizer::dirichlet;
@@ -181,7 +183,7 @@ class RegularizedTriangles {
     if (regularizer == Regularizer::hessian) data.W = curved_hessian(*given_, ops->vector);
     if (regularizer == Regularizer::max_norm) data.frames = face_frames(*domain_.mesh, *given_);
     used_.method =
-        std::make_shared<const RegularizedSolver>(ops, regularizer, std::move(data), task);
+        std::make_shared<const RegularizedSolver>(ops, regularizer, std::move(data), task, hint_);
   }
 
   SurfaceAnswer solve(const Sources& sources, const Regularized& options, Task& task,
@@ -238,12 +240,14 @@ class RegularizedTriangles {
                               report);
     }
     const Stopwatch watch(report, "factor");
-    out.method = std::make_shared<const RegularizedSolver>(
-        operators_for(*out.T, nullptr, false), Regularizer::dirichlet, RegularizerData{}, task);
+    out.method = std::make_shared<const RegularizedSolver>(operators_for(*out.T, nullptr, false),
+                                                           Regularizer::dirichlet,
+                                                           RegularizerData{}, task, hint_);
     return out;
   }
 
   SurfaceDomain domain_;
+  SolveHint hint_;
   std::shared_ptr<const IntrinsicTriangulation> given_;
   OnTriangles used_;  // on the given triangles, or on others with the same vertices
   std::shared_ptr<const P2Elements<2>> elements_;
@@ -252,14 +256,14 @@ class RegularizedTriangles {
 /// Polygon meshes, point clouds, voxel surfaces: functions of values at nodes all the same.
 class RegularizedNodes {
  public:
-  RegularizedNodes(const SurfaceDomain& domain, const Regularized& options, Task task,
-                   Report& report)
+  RegularizedNodes(const SurfaceDomain& domain, const Regularized& options, SolveHint hint,
+                   Task task, Report& report)
       : surface_((check(domain.kind(), options), domain), task.stage(0.5, "operators"), report,
                  nullptr, Needles::thicker) {
     const Stopwatch watch(report, "factor");
-    method_ =
-        std::make_shared<const RegularizedSolver>(surface_.operators(), Regularizer::dirichlet,
-                                                  RegularizerData{}, task.stage(0.5, "factoring"));
+    method_ = std::make_shared<const RegularizedSolver>(surface_.operators(),
+                                                        Regularizer::dirichlet, RegularizerData{},
+                                                        task.stage(0.5, "factoring"), hint);
   }
 
   SurfaceAnswer solve(const Sources& sources, const Regularized& options, Task& task,
@@ -291,15 +295,15 @@ using SolveRegularized =
     std::function<SurfaceAnswer(const Sources&, const Regularized&, Task&, Report&)>;
 
 SolveRegularized regularized(const SurfaceDomain& domain, const Regularized& options,
-                             const Task& task, Report& report) {
+                             SolveHint hint, const Task& task, Report& report) {
   const auto with = [](auto method) -> SolveRegularized {
     return [method](const Sources& sources, const Regularized& o, Task& t, Report& r) {
       return method->solve(sources, o, t, r);
     };
   };
   if (domain.kind() == "triangle mesh")
-    return with(std::make_shared<const RegularizedTriangles>(domain, options, task, report));
-  return with(std::make_shared<const RegularizedNodes>(domain, options, task, report));
+    return with(std::make_shared<const RegularizedTriangles>(domain, options, hint, task, report));
+  return with(std::make_shared<const RegularizedNodes>(domain, options, hint, task, report));
 }
 
 /// The regularized method without smoothing (eq. 1).
@@ -328,8 +332,9 @@ std::vector<Method<SurfaceDomain>> regularized_methods() {
            "Edelstein, Guillen, Solomon, Ben-Chen: A Convex Optimization Framework for Regularized "
            "Geodesic Distances (2023)"},
           regularized_options(),
-          [](const SurfaceDomain& domain, const Regularized& options, SolveHint, const Task& task,
-             Report& report) { return regularized(domain, options, task, report); }),
+          [](const SurfaceDomain& domain, const Regularized& options, SolveHint hint,
+             const Task& task,
+             Report& report) { return regularized(domain, options, hint, task, report); }),
       make_method<SurfaceDomain>(
           {BelyaevFayolle::method,
            "Unsigned distance as the largest function of gradient at most 1.",
@@ -337,9 +342,9 @@ std::vector<Method<SurfaceDomain>> regularized_methods() {
            {},
            "Belyaev, Fayolle: An ADMM-based scheme for distance function approximation (2020)"},
           belyaev_fayolle_options(),
-          [](const SurfaceDomain& domain, const BelyaevFayolle& options, SolveHint,
+          [](const SurfaceDomain& domain, const BelyaevFayolle& options, SolveHint hint,
              const Task& task, Report& report) {
-            return [solve = regularized(domain, without_smoothing(options), task, report)](
+            return [solve = regularized(domain, without_smoothing(options), hint, task, report)](
                        const Sources& sources, const BelyaevFayolle& o, Task& t, Report& r) {
               return solve(sources, without_smoothing(o), t, r);
             };

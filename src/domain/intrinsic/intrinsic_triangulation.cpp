@@ -8,6 +8,7 @@
 
 #include "base/counted.h"
 #include "base/disjoint_sets.h"
+#include "base/fetch_ahead.h"
 #include "base/index.h"
 #include "base/option_table.h"
 #include "base/parallel.h"
@@ -61,7 +62,7 @@ std::pair<Vec3, Vec3> bounds_of(const SurfaceMesh& mesh, const IntrinsicTriangul
     for (std::size_t f = begin; f < end; ++f)
       for (int k = 0; k < 3; ++k) {
         if (f + fetched_ahead < n)
-          __builtin_prefetch(&mesh.points()(T.faces(index(f + fetched_ahead), k), 0));
+          fetch_ahead(&mesh.points()(T.faces(index(f + fetched_ahead), k), 0));
         const Vec3 p = mesh.point(T.faces(index(f), k));
         low = low.cwiseMin(p);
         high = high.cwiseMax(p);
@@ -91,8 +92,8 @@ void measure(const SurfaceMesh& mesh, const EdgeSides& sides, IntrinsicTriangula
   parallel_for(T.edge_use.size(), edge_grain, [&](std::size_t begin, std::size_t end) {
     for (Eigen::Index e = index(begin); e < index(end); ++e) {
       if (const Eigen::Index next = e + index(fetched_ahead); next < T.n_edges()) {
-        __builtin_prefetch(&mesh.points()(T.edges(next, 0), 0));
-        __builtin_prefetch(&mesh.points()(T.edges(next, 1), 0));
+        fetch_ahead(&mesh.points()(T.edges(next, 0), 0));
+        fetch_ahead(&mesh.points()(T.edges(next, 1), 0));
       }
       const Vec3 d = mesh.point(T.edges(e, 1)) / T.unit - mesh.point(T.edges(e, 0)) / T.unit;
       edge_length[e] = d.norm();

@@ -9,6 +9,7 @@
 
 #include "base/counted.h"
 #include "base/disjoint_sets.h"
+#include "base/fetch_ahead.h"
 #include "base/parallel.h"
 #include "domain/mesh/face_orientation.h"
 #include "littoral/error.h"
@@ -67,7 +68,7 @@ double check_faces(const PolygonSoup& soup) {
       const std::size_t next = std::size_t(soup.face_offsets[f]) + ahead;
       for (std::size_t c = next; c < std::min(next + 3, soup.corners.size()); ++c)
         if (const int v = soup.corners[c]; v >= 0 && v < soup.n_vertices())
-          __builtin_prefetch(&soup.points(v, 0));
+          fetch_ahead(&soup.points(v, 0));
       here = std::max(here, check_face(soup, int(f)));
     }
     largest[begin / corner_face_grain] = here;

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "base/fetch_ahead.h"
 #include "base/index.h"
 #include "base/option_table.h"
 #include "base/thread_crew.h"
@@ -170,8 +171,8 @@ class Front {
             mine.push_back(&crew_[part]->batches()[std::size_t(i)]);
       for (std::size_t i = 0; i < mine.size(); ++i) {
         if (i + 6 < mine.size()) {
-          __builtin_prefetch(&search_.lists[mine[i + 6]->edge]);
-          __builtin_prefetch(&search_.pages.edges[mine[i + 6]->edge]);
+          fetch_ahead(&search_.lists[mine[i + 6]->edge]);
+          fetch_ahead(&search_.pages.edges[mine[i + 6]->edge]);
         }
         if (i + 3 < mine.size()) search_.lists[mine[i + 3]->edge].windows.fetch();
         take(*mine[i], crew_[worker]->envelopes);
@@ -208,8 +209,8 @@ class Front {
     const std::size_t n = together_.size() / (RayCrossing::n_shares / 2) + 1;
     for (std::size_t i = 0; i < n && !watched.empty(); ++i) {
       if (watched.size() > 12 && may_have_passed(watched[12])) {
-        __builtin_prefetch(&search_.lists[watched[12].edge]);
-        __builtin_prefetch(&search_.pages.edges[watched[12].edge]);
+        fetch_ahead(&search_.lists[watched[12].edge]);
+        fetch_ahead(&search_.pages.edges[watched[12].edge]);
       }
       Passing next = watched.front();
       watched.pop_front();

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/fetch_ahead.h"
 #include "base/index.h"
 #include "base/parallel.h"
 
@@ -168,7 +169,7 @@ void PolyhedralPages::find_sides(const IntrinsicTriangulation& T,
 
 void PolyhedralPages::fetch_edges(std::size_t f) const {
   if (f < triangles.size())
-    for (const int e : triangles[f].edge) __builtin_prefetch(&edges[e]);
+    for (const int e : triangles[f].edge) fetch_ahead(&edges[e]);
 }
 
 void PolyhedralPages::find_corners(const IntrinsicTriangulation& T,
@@ -216,7 +217,7 @@ void PolyhedralPages::find_bends(const std::vector<RepeatedRow>& copies) {
       bool bent = false;
       for (int i = corner_offsets[v]; i < corner_offsets[v + 1]; ++i) {
         if (std::size_t(i) + fetched_ahead < across.size())
-          __builtin_prefetch(&triangles[across[i + fetched_ahead] / 3]);
+          fetch_ahead(&triangles[across[i + fetched_ahead] / 3]);
         const int f = across[i] / 3, side = across[i] % 3;
         const Triangle& t = triangles[f];
         wait = std::min(wait, float(wait_in(t)));

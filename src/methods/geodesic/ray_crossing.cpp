@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/fetch_ahead.h"
 #include "base/index.h"
 #include "base/parallel.h"
 #include "methods/geodesic/merge_windows.h"
@@ -171,15 +172,15 @@ void RayCrossing::leave(int side, Window w) {
 void RayCrossing::fetch(int id, int step) const {
   const PolyhedralPages::Edge& edge = s_.pages.edges[id];
   if (step == 0) {
-    __builtin_prefetch(&edge);
-    __builtin_prefetch(&s_.lists[id]);
+    fetch_ahead(&edge);
+    fetch_ahead(&s_.lists[id]);
   } else if (step == 1) {
-    __builtin_prefetch(&s_.distance[edge.tail]);
-    __builtin_prefetch(&s_.distance[edge.head]);
+    fetch_ahead(&s_.distance[edge.tail]);
+    fetch_ahead(&s_.distance[edge.head]);
     s_.lists[id].windows.fetch();
     for (const int side : s_.pages.at(edge)) {
-      __builtin_prefetch(&triangle(side / 3));
-      __builtin_prefetch(&s_.winner[side]);
+      fetch_ahead(&triangle(side / 3));
+      fetch_ahead(&s_.winner[side]);
     }
   } else if (step == 2) {
     for (const int side : s_.pages.at(edge)) fetch_corner(side / 3, (side % 3 + 2) % 3);
@@ -188,12 +189,12 @@ void RayCrossing::fetch(int id, int step) const {
 
 void RayCrossing::fetch_vertex(int v, int step) const {
   if (step == 0) {
-    __builtin_prefetch(&s_.pages.corner_offsets[v]);
+    fetch_ahead(&s_.pages.corner_offsets[v]);
     s_.fetch(v);
   } else if (step == 1) {
-    __builtin_prefetch(s_.pages.around(v).data());
+    fetch_ahead(s_.pages.around(v).data());
   } else if (step == 2) {
-    for (const int side : s_.pages.around(v)) __builtin_prefetch(&triangle(side / 3));
+    for (const int side : s_.pages.around(v)) fetch_ahead(&triangle(side / 3));
   } else {
     for (const int side : s_.pages.around(v)) fetch_corner(side / 3, (side % 3 + 2) % 3);
   }
@@ -202,9 +203,9 @@ void RayCrossing::fetch_vertex(int v, int step) const {
 /// What is at a corner of a triangle, and the sides that it ends.
 void RayCrossing::fetch_corner(int f, int k) const {
   const PolyhedralPages::Triangle& t = triangle(f);
-  __builtin_prefetch(&s_.distance[t.vertex[k]]);
-  __builtin_prefetch(&s_.pages.edges[t.edge[k]]);
-  __builtin_prefetch(&s_.pages.edges[t.edge[(k + 2) % 3]]);
+  fetch_ahead(&s_.distance[t.vertex[k]]);
+  fetch_ahead(&s_.pages.edges[t.edge[k]]);
+  fetch_ahead(&s_.pages.edges[t.edge[(k + 2) % 3]]);
 }
 
 void RayCrossing::go_on(int id) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/fetch_ahead.h"
 #include "methods/geodesic/edge_envelopes.h"
 #include "methods/geodesic/exact_polyhedral_pages.h"
 #include "methods/geodesic/exact_polyhedral_starts.h"
@@ -46,10 +47,10 @@ struct PolyhedralSearch {
   }
   /// Lets the processor read ahead what is known of a vertex.
   void fetch(int v) const {
-    __builtin_prefetch(&distance[v]);
-    __builtin_prefetch(&nearest[v]);
-    __builtin_prefetch(&arrival[v]);
-    __builtin_prefetch(&error[v]);
+    fetch_ahead(&distance[v]);
+    fetch_ahead(&nearest[v]);
+    fetch_ahead(&arrival[v]);
+    fetch_ahead(&error[v]);
   }
 };
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/fetch_ahead.h"
 #include "methods/geodesic/polyhedral_window.h"
 
 namespace littoral {
@@ -90,8 +91,7 @@ class WindowBlock {
   /// Lets the processor read it ahead of time.
   void fetch() const {
     for (std::size_t i = 0; i < size_; i += 8)
-      for (std::size_t c = 0; c <= n_numbers; ++c)
-        __builtin_prefetch(data_.get() + c * stride_ + i);
+      for (std::size_t c = 0; c <= n_numbers; ++c) fetch_ahead(data_.get() + c * stride_ + i);
   }
   void clear() { size_ = 0; }
   /// Room for so many windows, no more.

@@ -85,12 +85,12 @@ const OptionTable<SpaceBelyaevFayolle>& space_belyaev_fayolle_options() {
 }
 
 RegularizedSolver::RegularizedSolver(std::shared_ptr<const Operators> ops, Regularizer regularizer,
-                                     RegularizerData data, const Task& task,
+                                     RegularizerData data, const Task& task, SolveHint hint,
                                      ConstrainedSystem::Rows expected)
     : ops_(std::move(ops)),
       parts_(regularized_parts(std::shared_ptr<const Calculus>(ops_, &ops_->scalar), regularizer,
                                std::move(data), expected)) {
-  if (parts_.size() == 1) parts_[0].order(task);
+  if (parts_.size() == 1 && hint == SolveHint::many_rhs) parts_[0].order(task);
 }
 
 AdmmResult RegularizedSolver::minimize(const KnownDistances& known, const Regularized& options,

@@ -11,6 +11,7 @@
 #include "littoral/report.h"
 #include "methods/regularized/regularized_part.h"
 #include "operators/calculus.h"
+#include "solve/heat/heat_system.h"
 #include "solve/optimization/admm.h"
 #include "sources/surface/known_distances.h"
 
@@ -29,14 +30,15 @@ const OptionTable<SpaceBelyaevFayolle>& space_belyaev_fayolle_options();
 /// One domain and one regularizer; immutable, `solve` may be called from several threads.
 class RegularizedSolver {
  public:
-  /// Orders the Laplacian W_D once, of several components each when a source reaches it. It is
-  /// factored when cells first share a penalty, once for every alpha, penalty, source set and
-  /// regularizer of gradients, and with the penalties of the cells for each source set. The
-  /// Hessian, whose matrix alpha W_H + rho W_D no scaling reaches, is factored per penalty. Throws
-  /// InputError if the data a regularizer needs is missing. Where many rows are expected (surfaces
-  /// in space) it is ordered for each source set instead.
+  /// Orders the Laplacian W_D once; if several components or one solve are expected, each when a
+  /// source reaches it, beside the march that iterations start from. It is factored when cells
+  /// first share a penalty, once for every alpha, penalty, source set and regularizer of gradients,
+  /// and with the penalties of the cells for each source set. The Hessian, whose matrix alpha W_H +
+  /// rho W_D no scaling reaches, is factored per penalty. Throws InputError if the data a
+  /// regularizer needs is missing. Where many rows are expected (surfaces in space) it is ordered
+  /// for each source set instead.
   RegularizedSolver(std::shared_ptr<const Operators> ops, Regularizer regularizer,
-                    RegularizerData data, const Task& task,
+                    RegularizerData data, const Task& task, SolveHint hint = SolveHint::many_rhs,
                     ConstrainedSystem::Rows expected = ConstrainedSystem::Rows::few);
 
   /// Distance at the nodes (nodes) [length of the input] from where it is known, in units of the

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "base/beside.h"
 #include "base/index.h"
 #include "base/taken.h"
 #include "littoral/error.h"
@@ -234,6 +236,7 @@ AdmmResult RegularizedPart::minimize(const KnownDistances& known, const Regulari
   admm_options.certified = gap_over_tolerance * options.tolerance;
   admm_options.max_iterations = options.max_iterations;
 
+  Task rest = task;
   ConstrainedSystem::Constrained constrained;
   double constrained_rho = -1;  // the penalty for which `constrained` was made; less: it was not
   if (regularizer_ == Regularizer::hessian) {
@@ -265,7 +268,13 @@ AdmmResult RegularizedPart::minimize(const KnownDistances& known, const Regulari
     const double in_quadratic = first_algorithm ? alpha : 0;
     if (in_quadratic > 0)
       problem.quadratic = [&C, alpha](const VecX& u) { return VecX(alpha * times(C.L, u)); };
-    const auto system = laplacian(task);
+    std::optional<MarchedStart> near;
+    std::optional<Beside> march;  // beside the order of elimination
+    if (state.empty() && !sign && dim == 2)
+      march.emplace([&](const Task& beside) {
+        near = marched_start(problem.G, C.A, problem.b, known, beside);
+      });
+    const auto system = laplacian(rest.stage(0.1, "factoring"));
     problem.solve = [&, system, in_quadratic](const VecX& b, double rho) {
       if (constrained_rho < 0) {
         constrained = system->constrain(held.rows, task, held.give);
@@ -285,11 +294,10 @@ AdmmResult RegularizedPart::minimize(const KnownDistances& known, const Regulari
       return [weighted = system->constrain_like(constrained, *matrix, held.rows, task, give)](
                  const VecX& b) { return weighted.solve(b); };
     };
-    if (state.empty() && !sign && dim == 2)
-      if (const auto near = marched_start(problem.G, C.A, problem.b, known, task))
-        start_from(near->flux, alpha, first_algorithm, held.bound, problem);
+    if (march) march->finish(task);
+    if (near) start_from(near->flux, alpha, first_algorithm, held.bound, problem);
   }
-  return admm(problem, admm_options, state, task);
+  return admm(problem, admm_options, state, rest.stage(0.9, "alternating directions"));
 }
 
 std::vector<RegularizedPart> regularized_parts(const std::shared_ptr<const Calculus>& C,

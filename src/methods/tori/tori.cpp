@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/fetch_ahead.h"
 #include "base/index.h"
 #include "base/parallel.h"
 #include "littoral/error.h"
@@ -285,8 +286,7 @@ T ToriDistance::blended(const std::vector<TorusRecord<S>>& records, const Vec3& 
   std::array<Neighbour, littoral::blended> found;
   const int n = tree_.nearest(x, littoral::blended, found.data(), [&](int place) {
     const char* const bytes = reinterpret_cast<const char*>(&records[place]);
-    for (std::size_t line = 0; line < sizeof records[place]; line += 64)
-      __builtin_prefetch(bytes + line);
+    for (std::size_t line = 0; line < sizeof records[place]; line += 64) fetch_ahead(bytes + line);
   });
   TorusLanes<S> lanes;
   gather(records, found.data(), n, x, lanes);

@@ -4,6 +4,7 @@
 #include <new>
 #include <string>
 
+#include "base/fetch_ahead.h"
 #include "base/index.h"
 #include "base/now_and_then.h"
 #include "base/parallel.h"
@@ -269,7 +270,7 @@ void fetch(const Scalar* block, std::size_t n) {
   constexpr std::size_t line = 64, most = 4096;  // bytes; longer ones fetch themselves
   const auto* bytes = reinterpret_cast<const char*>(block);
   const std::size_t end = std::min(n * sizeof(Scalar), most);
-  for (std::size_t at = 0; at < end; at += line) __builtin_prefetch(bytes + at);
+  for (std::size_t at = 0; at < end; at += line) fetch_ahead(bytes + at);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/fetch_ahead.h"
 #include "base/index.h"
 #include "base/now_and_then.h"
 
@@ -35,7 +36,7 @@ void for_entries(const Eigen::SparseMatrix<Scalar>& lower, const std::vector<int
     stop_now_and_then(j, task);
     const int a = new_of[j];
     for (typename Eigen::SparseMatrix<Scalar>::InnerIterator it(lower, j); it; ++it, ++e) {
-      if (e + ahead < n) __builtin_prefetch(&new_of[row_of[e + ahead]]);
+      if (e + ahead < n) fetch_ahead(&new_of[row_of[e + ahead]]);
       Entry& here = ring[e % ahead];
       if (e >= half) {
         const Entry& due = ring[(e - half) % ahead];
@@ -64,8 +65,8 @@ Tree elimination_tree(const Eigen::SparseMatrix<Scalar>& lower, const std::vecto
   for_entries(
       lower, new_of, task,
       [&](int a, int b) {
-        __builtin_prefetch(&tree.entries[std::min(a, b)]);
-        __builtin_prefetch(&begin[std::max(a, b)]);
+        fetch_ahead(&tree.entries[std::min(a, b)]);
+        fetch_ahead(&begin[std::max(a, b)]);
       },
       [&](int, int a, int b) {
         ++tree.entries[std::min(a, b)];
@@ -74,8 +75,7 @@ Tree elimination_tree(const Eigen::SparseMatrix<Scalar>& lower, const std::vecto
   sums_to_begins(begin);
   std::vector<int> left(begin[new_of.size()]), at = begin;
   for_entries(
-      lower, new_of, task,
-      [&](int a, int b) { __builtin_prefetch(&left.data()[at[std::max(a, b)]]); },
+      lower, new_of, task, [&](int a, int b) { fetch_ahead(&left.data()[at[std::max(a, b)]]); },
       [&](int, int a, int b) {
         if (a != b) left[at[std::max(a, b)]++] = std::min(a, b);
       });
@@ -229,8 +229,8 @@ Elimination::Elimination(const Eigen::SparseMatrix<Scalar>& lower, const Orderin
         lower, new_of, task,
         [&](int a, int b) {
           const int to = at[std::min(a, b)];
-          __builtin_prefetch(&entry_from.data()[to]);
-          __builtin_prefetch(&entry_row.data()[to]);
+          fetch_ahead(&entry_from.data()[to]);
+          fetch_ahead(&entry_row.data()[to]);
         },
         [&](int e, int a, int b) {
           const int to = at[std::min(a, b)]++;

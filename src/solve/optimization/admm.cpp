@@ -11,6 +11,7 @@
 #include "base/now_and_then.h"
 #include "base/parallel.h"
 #include "base/platform/large_pages.h"
+#include "base/thread_crew.h"
 #include "littoral/error.h"
 #include "solve/optimization/shortened_gradients.h"
 
@@ -296,6 +297,7 @@ class Admm {
   VecX allowed() const { return p_.allowed ? p_.allowed(u_) : u_; }
 
   const KeepLargePages keep_pages_;  // each factor goes where the one before was
+  const KeepThreads keep_threads_;   // ten loops an iteration
   const SplitProblem& p_;
   const AdmmOptions& o_;
   AdmmState& state_;

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "base/falling_keys.h"
+#include "base/fetch_ahead.h"
 #include "base/groups.h"
 #include "base/index.h"
+#include "base/large_vector.h"
 #include "base/now_and_then.h"
 #include "base/parallel.h"
 
@@ -20,19 +22,23 @@ constexpr std::size_t cell_grain = 1 << 14;
 /// The triangles of a gradient, and the march over them.
 class Marching {
  public:
-  Marching(const SpRows& G, const VecX& A)
-      : G_(G), A_(A), n_(G.cols()), way_(n_), accepted_(n_, 0), front_(static_cast<int>(n_)) {
+  Marching(const VecX& A, Eigen::Index n)
+      : A_(A), n_(n), way_(n_), accepted_(n_, 0), front_(static_cast<int>(n_)) {
     u_ = VecX::Constant(n_, infinity);
   }
 
   /// False if a cell has other than three nodes.
-  bool find_cells() {
+  bool find_cells(const SpRows& G) {
+    cell_.resize(std::size_t(A_.size()));
     for (Eigen::Index c = 0; c < A_.size(); ++c) {
-      const int at = G_.outerIndexPtr()[2 * c];
-      if (G_.outerIndexPtr()[2 * c + 1] != at + 3 || G_.outerIndexPtr()[2 * c + 2] != at + 6)
+      const int at = G.outerIndexPtr()[2 * c];
+      if (G.outerIndexPtr()[2 * c + 1] != at + 3 || G.outerIndexPtr()[2 * c + 2] != at + 6)
         return false;
+      Cell& cell = cell_[std::size_t(c)];
       for (int k = 0; k < 3; ++k) {
-        if (corner(c, k) != G_.innerIndexPtr()[at + 3 + k]) return false;
+        cell.corner[k] = G.innerIndexPtr()[at + k];
+        if (cell.corner[k] != G.innerIndexPtr()[at + 3 + k]) return false;
+        cell.hat[k] = {G.valuePtr()[at + k], G.valuePtr()[at + 3 + k]};
       }
     }
     cells_ = groups_of<int>(std::size_t(n_), [&](const auto& put) {
@@ -52,6 +58,7 @@ class Marching {
       stop_now_and_then(int_size(order_), task);
       accepted_[v] = 1;
       order_.push_back(v);
+      for (const int c : cells_.at(v)) fetch_ahead(&cell_[std::size_t(c)]);
       for (const int c : cells_.at(v)) pass(c, v);
     }
   }
@@ -130,13 +137,14 @@ class Marching {
     int from = -1;  // of the node it came from along a side; -1: from between the other two
   };
 
-  int corner(Eigen::Index c, int k) const {
-    return G_.innerIndexPtr()[G_.outerIndexPtr()[2 * c] + k];
-  }
-  Vec2 hat(Eigen::Index c, int k) const {
-    const double* g = G_.valuePtr() + G_.outerIndexPtr()[2 * c] + k;
-    return {g[0], g[3]};
-  }
+  /// What belongs to a triangle, in one line of memory.
+  struct alignas(64) Cell {
+    std::array<double, 2> hat[3];  // gradients of the functions that are 1 at a corner
+    int corner[3];
+  };
+
+  int corner(Eigen::Index c, int k) const { return cell_[std::size_t(c)].corner[k]; }
+  Vec2 hat(Eigen::Index c, int k) const { return Vec2(cell_[std::size_t(c)].hat[k].data()); }
   /// Unit vector from corner k to corner i.
   Vec2 side(Eigen::Index c, int k, int i) const {
     const Vec2 across = hat(c, 3 - k - i).normalized(), along(-across.y(), across.x());
@@ -193,9 +201,9 @@ class Marching {
     front_.put(v, t);
   }
 
-  const SpRows& G_;
   const VecX& A_;
   Eigen::Index n_;
+  LargeVector<Cell> cell_;
   Groups<int> cells_;  // around each node
   VecX u_;
   std::vector<Way> way_;
@@ -208,8 +216,8 @@ class Marching {
 
 std::optional<MarchedStart> marched_start(const SpRows& G, const VecX& A, const VecX& b,
                                           const KnownDistances& known, const Task& task) {
-  Marching marching(G, A);
-  if (!marching.find_cells()) return std::nullopt;
+  Marching marching(A, G.cols());
+  if (!marching.find_cells(G)) return std::nullopt;
   marching.march(known, task);
   VecX amount = marching.transport(b, task);
   marching.spread(amount);

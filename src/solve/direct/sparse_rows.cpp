@@ -4,6 +4,7 @@
 #include <numeric>
 #include <vector>
 
+#include "base/fetch_ahead.h"
 #include "base/index.h"
 #include "base/now_and_then.h"
 #include "base/parallel.h"
@@ -13,6 +14,7 @@ namespace littoral {
 namespace {
 
 constexpr std::size_t row_grain = 1 << 14;
+constexpr Eigen::Index rows_ahead = 16;
 
 void counts_to_begins(int* begin, Eigen::Index rows) {
   std::partial_sum(begin, begin + rows + 1, begin);
@@ -156,6 +158,11 @@ SpRows transposed(const SpRows& A) {
   std::vector<int> at(begin, begin + T.rows());
   for (int i = 0; i < A.rows(); ++i)
     for (int e = A.outerIndexPtr()[i]; e < A.outerIndexPtr()[i + 1]; ++e) {
+      if (e + rows_ahead < A.nonZeros()) {
+        const int next = at[A.innerIndexPtr()[e + rows_ahead]];
+        fetch_ahead(T.innerIndexPtr() + next);
+        fetch_ahead(T.valuePtr() + next);
+      }
       const int k = at[A.innerIndexPtr()[e]]++;
       T.innerIndexPtr()[k] = i;
       T.valuePtr()[k] = A.valuePtr()[e];

@@ -316,7 +316,9 @@ class Admm {
 
 SpRows SplitProblem::divergence() const {
   SpRows D = transposed(G);
-  for (Eigen::Index e = 0; e < D.nonZeros(); ++e) D.valuePtr()[e] *= A[D.innerIndexPtr()[e] / dim];
+  parallel_for(std::size_t(D.nonZeros()), cells_at_once, [&](std::size_t e, std::size_t end) {
+    for (; e < end; ++e) D.valuePtr()[e] *= A[D.innerIndexPtr()[e] / dim];
+  });
   return D;
 }
 

@@ -11,6 +11,7 @@
 
 #include "base/counted.h"
 #include "base/falling_keys.h"
+#include "base/fetch_ahead.h"
 #include "base/index.h"
 #include "methods/geodesic/marching_stencils.h"
 #include "methods/heat/finalize.h"
@@ -148,6 +149,10 @@ class MarchingFront {
     }
   }
   void reach_from(int v) {
+    for (const int c : stencils_.corners_at(v)) {
+      fetch_ahead(T_.faces.row(c / 3).data());
+      fetch_ahead(T_.length.row(c / 3).data());
+    }
     for (const int c : stencils_.corners_at(v)) cross_triangle(c / 3, c % 3);
     stencils_.for_unfolded_at(v, [&](const UnfoldedStencil& s) { reach_unfolded(s, v); });
   }
@@ -178,6 +183,8 @@ class MarchingFront {
   /// Around a vertex on a signed curve, triangles that hold no piece of it lie on one side: their
   /// corners take each other's sign.
   void find_sides() {
+    if (std::none_of(sides_.begin(), sides_.end(), [](signed char side) { return side > 0; }))
+      return;
     for (int f = 0; f < T_.n_faces(); ++f)
       for (int k = 0; with_sides_[f] && k < 3; ++k)
         if (d_[T_.faces(f, k)] == 0) on_curve_[T_.faces(f, k)] = 1;

@@ -46,6 +46,11 @@ inline double law_of_cosines(double a, double b, double c) {
   return b * b + (a - c) * (a + c);
 }
 
+/// Cotangent of the angle between sides of lengths a and b, across from c; as in `triangle_shape`.
+inline double cotangent_across(double a, double b, double c) {
+  return law_of_cosines(a, b, c) / (4 * area_of_lengths(a, b, c));
+}
+
 inline TriangleShape triangle_shape(double l0, double l1, double l2, bool mirrored) {
   TriangleShape t;
   t.area = area_of_lengths(l0, l1, l2);

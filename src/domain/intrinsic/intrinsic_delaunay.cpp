@@ -60,8 +60,12 @@ class Improvement {
   std::vector<char> are_delaunay() const {
     std::vector<char> out(M_.edges.size());
     parallel_for(out.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t e = begin; e < end; ++e)
+      for (std::size_t e = begin; e < end; ++e) {
+        for (int step = 0; step < IntrinsicMeshEditor::n_fetch_steps; ++step)
+          if (const std::size_t next = e + ahead_of(step); next < end)
+            M_.fetch(static_cast<int>(next), step);
         out[e] = !(M_.delaunay_sum(static_cast<int>(e)) < delaunay_margin);
+      }
     });
     return out;
   }
@@ -72,6 +76,11 @@ class Improvement {
     for (int e : queue) waiting[e] = 1;
     while (!queue.empty() && flips < most_flips_) {
       if (flips % 256 == 0) task_.checkpoint();
+      for (int step = 0; step < IntrinsicMeshEditor::n_fetch_steps; ++step)
+        if (const std::size_t next = ahead_of(step); next < queue.size()) {
+          const int s = queue[next];
+          if (settled_.empty() || !settled_[s]) M_.fetch(s, step);
+        }
       const int e = queue.front();
       queue.pop_front();
       waiting[e] = 0;
@@ -131,6 +140,10 @@ class Improvement {
   std::vector<int> touched;
 
  private:
+  static std::size_t ahead_of(int fetch_step) {
+    return 6 * std::size_t(IntrinsicMeshEditor::n_fetch_steps - fetch_step);
+  }
+
   /// Has the face an angle that is too small and that splitting can mend? Not one between two edges
   /// that cannot be flipped, nor one beside a vertex that has hardly any angle to share out: the
   /// tip of a wedge would be halved for ever.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/fetch_ahead.h"
 #include "base/index.h"
 
 namespace littoral {
@@ -54,8 +55,25 @@ double IntrinsicMeshEditor::delaunay_sum(int e) const {
   const Edge& edge = edges[e];
   if (edge.faces.empty()) return infinity;
   double sum = 0;
-  for (int f : edge.faces) sum += shape(f).cot[(side_of(f, e) + 2) % 3];
+  for (const int f : edge.faces) {
+    std::array<double, 2> others{};
+    int n = 0;
+    for (const int s : faces[f].e)
+      if (s != e && n < 2) others[n++] = edges[s].length;
+    sum += cotangent_across(others[0], others[1], edge.length);
+  }
   return sum;
+}
+
+void IntrinsicMeshEditor::fetch(int e, int step) const {
+  if (step == 0) {
+    fetch_ahead(&edges[e]);
+  } else if (step == 1) {
+    for (const int f : edges[e].faces) fetch_ahead(&faces[f]);
+  } else {
+    for (const int f : edges[e].faces)
+      for (const int s : faces[f].e) fetch_ahead(&edges[s].length);
+  }
 }
 
 Complex IntrinsicMeshEditor::position(const SurfacePoint& p,
@@ -78,6 +96,7 @@ Complex IntrinsicMeshEditor::position(const SurfacePoint& p,
 IntrinsicMeshEditor::Drawing IntrinsicMeshEditor::lift(
     const std::vector<std::pair<int, Corners>>& layout, int edge) {
   Drawing drawing;
+  if (nodes_.empty()) return drawing;
   auto take_nodes = [&](std::vector<int>& list) {
     for (int i : list) drawing.inside.emplace_back(i, position(nodes_[i], layout));
     list.clear();
@@ -100,6 +119,7 @@ IntrinsicMeshEditor::Drawing IntrinsicMeshEditor::lift(
 
 void IntrinsicMeshEditor::place(const Drawing& drawing, int edge, int left, const Corners& at_left,
                                 int right, const Corners& at_right) {
+  if (nodes_.empty()) return;
   const int tail = std::find(faces[left].v.begin(), faces[left].v.end(), edges[edge].tail) -
                    faces[left].v.begin();
   const Complex P = at_left[tail], Q = at_left[(tail + 1) % 3], PQ = Q - P;
@@ -188,7 +208,7 @@ bool IntrinsicMeshEditor::flip(int e) {
   Corners at_f, at_g;
   at_f[i] = A, at_f[(i + 1) % 3] = B, at_f[(i + 2) % 3] = C;
   at_g[j] = B, at_g[(j + 1) % 3] = A, at_g[(j + 2) % 3] = D;
-  const Drawing drawing = lift({{f, at_f}, {g, at_g}}, e);
+  const Drawing drawing = nodes_.empty() ? Drawing{} : lift({{f, at_f}, {g, at_g}}, e);
   auto move = [&](int edge, int from, int to) {
     std::replace(edges[edge].faces.begin(), edges[edge].faces.end(), from, to);
   };
@@ -219,7 +239,8 @@ bool IntrinsicMeshEditor::split(int e) {
   }
   const int tail = edges[e].tail, head = edges[e].head, m = n_vertices();
   points_.push_back(0.5 * points_[tail] + 0.5 * points_[head]);
-  const std::vector<int> around = edges[e].faces;
+  const FacesOfEdge around = edges[e].faces;
+  const bool drawn = !nodes_.empty();
   struct Cut {
     int face, side, right, edge;
     Corners at;
@@ -235,18 +256,19 @@ bool IntrinsicMeshEditor::split(int e) {
   edges[e].length /= 2;
   edges[e].head = m;
   edges.push_back({m, head, edges[e].length, {}});
-  nodes_on_edge_.emplace_back();
-  on_edge_.emplace_back();
-  const std::vector<int> on = std::move(nodes_on_edge_[e]);
-  nodes_on_edge_[e].clear();
-  std::vector<double> where(nodes_.size(), -1);  // along the old edge
+  std::vector<int> on;
+  std::vector<CurveNetwork::Segment> segments;
+  if (drawn) {
+    nodes_on_edge_.emplace_back();
+    on_edge_.emplace_back();
+    on.swap(nodes_on_edge_[e]);
+    segments.swap(on_edge_[e]);
+  }
   auto along = [&](int i) {
     const SurfacePoint& p = nodes_[i];
     if (p.on == SurfacePoint::On::vertex) return p.element == tail ? 0.0 : 1.0;
     return p.b[1];
   };
-  std::vector<CurveNetwork::Segment> segments = std::move(on_edge_[e]);
-  on_edge_[e].clear();
   std::vector<std::array<double, 2>> ends;
   for (const auto& s : segments) ends.push_back({along(s.a), along(s.b)});
   for (int i : on) {
@@ -287,16 +309,18 @@ bool IntrinsicMeshEditor::split(int e) {
     const Complex A = cut.at[i], B = cut.at[(i + 1) % 3], C = cut.at[(i + 2) % 3],
                   M = 0.5 * (A + B);
     edges.push_back({m, c, std::abs(C - M), {f, cut.right}});
-    nodes_on_edge_.emplace_back();
-    on_edge_.emplace_back();
+    if (drawn) {
+      nodes_on_edge_.emplace_back();
+      on_edge_.emplace_back();
+      nodes_in_face_.emplace_back();
+      in_face_.emplace_back();
+    }
     faces[f] = {{a, m, c},
                 {at_a, cut.edge, F.e[(i + 2) % 3]},
                 {F.side_sign[i], 1, F.side_sign[(i + 2) % 3]}};
     faces.push_back({{m, b, c},
                      {at_b, F.e[(i + 1) % 3], cut.edge},
                      {F.side_sign[i], F.side_sign[(i + 1) % 3], -1}});
-    nodes_in_face_.emplace_back();
-    in_face_.emplace_back();
     auto& beside = edges[F.e[(i + 1) % 3]].faces;
     std::replace(beside.begin(), beside.end(), f, cut.right);
     edges[at_a].faces.push_back(f);

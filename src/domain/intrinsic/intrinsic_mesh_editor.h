@@ -2,6 +2,8 @@
 // A triangulation that can be flipped and split, with curves drawn on it.
 
 #include <array>
+#include <cstdint>
+#include <initializer_list>
 #include <vector>
 
 #include "domain/intrinsic/intrinsic_delaunay.h"
@@ -10,6 +12,38 @@ namespace littoral {
 
 /// How far from collinear triangles stay, in units of their longest side.
 constexpr double collinear_margin = 1e-10;
+
+/// The faces of an edge, few as a rule.
+class FacesOfEdge {
+ public:
+  FacesOfEdge() = default;
+  FacesOfEdge(std::initializer_list<int> faces) {
+    for (const int f : faces) push_back(f);
+  }
+
+  std::size_t size() const { return n_; }
+  bool empty() const { return n_ == 0; }
+  int* begin() { return n_ <= first_.size() ? first_.data() : all_.data(); }
+  int* end() { return begin() + n_; }
+  const int* begin() const { return n_ <= first_.size() ? first_.data() : all_.data(); }
+  const int* end() const { return begin() + n_; }
+  int operator[](std::size_t i) const { return begin()[i]; }
+
+  void push_back(int f) {
+    if (n_ == first_.size()) all_.assign(first_.begin(), first_.end());
+    if (n_ < first_.size())
+      first_[n_] = f;
+    else
+      all_.push_back(f);
+    ++n_;
+  }
+  void clear() { n_ = 0; }
+
+ private:
+  std::array<int, 2> first_{};
+  std::uint32_t n_ = 0;
+  std::vector<int> all_;  // where there are more
+};
 
 /// Triangles of three different vertices, glued along edges of given length; several edges may join
 /// two vertices. Corners run counter-clockwise seen from the side of the orientation, as far as
@@ -23,7 +57,7 @@ class IntrinsicMeshEditor {
   struct Edge {
     int tail, head;
     double length;
-    std::vector<int> faces;
+    FacesOfEdge faces;
   };
 
   IntrinsicMeshEditor(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
@@ -40,6 +74,10 @@ class IntrinsicMeshEditor {
   /// Puts a vertex in the middle of an edge if that leaves its triangles an area.
   bool split(int e);
   TriangleShape shape(int f) const;
+  /// Lets the processor read ahead what `delaunay_sum` needs, in steps of which each looks at what
+  /// the one before has fetched.
+  static constexpr int n_fetch_steps = 3;
+  void fetch(int e, int step) const;
   int longest_edge(int f) const;
 
   /// The result, with connectivity and frames of its own.
@@ -70,7 +108,7 @@ class IntrinsicMeshEditor {
   int side_of(int f, int e) const;
 
   std::vector<Vec3> points_;
-  std::vector<SurfacePoint> nodes_;
+  std::vector<SurfacePoint> nodes_;  // of what is drawn; if there are none, what follows is empty
   std::vector<std::vector<int>> nodes_in_face_, nodes_on_edge_;
   std::vector<std::vector<CurveNetwork::Segment>> in_face_, on_edge_;
 };

@@ -3,15 +3,25 @@
 #include <algorithm>
 #include <tuple>
 
+#include "base/fetch_ahead.h"
 #include "domain/intrinsic/intrinsic_mesh_editor.h"
 
 namespace littoral {
 
+namespace {
+constexpr int faces_ahead = 8;  // faces, whose edges lie anywhere
+}  // namespace
+
 IntrinsicMeshEditor::IntrinsicMeshEditor(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
                                          CurveNetwork curves) {
+  points_.reserve(std::size_t(mesh.n_vertices()));
   for (int v = 0; v < mesh.n_vertices(); ++v) points_.push_back(mesh.point(v));
+  edges.reserve(std::size_t(T.n_edges()));
+  faces.reserve(std::size_t(T.n_faces()));
   for (int e = 0; e < T.n_edges(); ++e) edges.push_back({T.edges(e, 0), T.edges(e, 1), 0, {}});
   for (int f = 0; f < T.n_faces(); ++f) {
+    if (f + faces_ahead < T.n_faces())
+      for (int k = 0; k < 3; ++k) fetch_ahead(&edges[T.side_edge(f + faces_ahead, k)]);
     Face face;
     const bool reversed = T.orientation[f] < 0;
     for (int k = 0; k < 3; ++k) {
@@ -28,7 +38,10 @@ IntrinsicMeshEditor::IntrinsicMeshEditor(const SurfaceMesh& mesh, const Intrinsi
   }
   // Faces without area had their own sides lengthened; now that faces share lengths, all edges are.
   double lift = 0;
-  for (const Face& f : faces) {
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (i + faces_ahead < faces.size())
+      for (const int e : faces[i + faces_ahead].e) fetch_ahead(&edges[e].length);
+    const Face& f = faces[i];
     const double a = edges[f.e[0]].length, b = edges[f.e[1]].length, c = edges[f.e[2]].length;
     lift = std::max(
         lift, 2 * collinear_margin * std::max({a, b, c}) - (a + b + c - 2 * std::max({a, b, c})));
@@ -37,6 +50,7 @@ IntrinsicMeshEditor::IntrinsicMeshEditor(const SurfaceMesh& mesh, const Intrinsi
     for (Edge& e : edges) e.length += lift;
 
   nodes_ = std::move(curves.nodes);
+  if (nodes_.empty()) return;
   nodes_in_face_.resize(faces.size());
   in_face_.resize(faces.size());
   nodes_on_edge_.resize(edges.size());
@@ -56,6 +70,9 @@ Retriangulation IntrinsicMeshEditor::finish(const IntrinsicTriangulation& before
   soup.points.resize(n_vertices(), 3);
   for (int v = 0; v < n_vertices(); ++v) soup.points.row(v) = points_[v];
   std::vector<int> edge_of_side;
+  soup.corners.reserve(3 * faces.size());
+  soup.face_offsets.reserve(faces.size() + 1);
+  edge_of_side.reserve(3 * faces.size());
   for (const Face& f : faces) {
     soup.add_face(f.v);
     edge_of_side.insert(edge_of_side.end(), f.e.begin(), f.e.end());
@@ -73,25 +90,38 @@ Retriangulation IntrinsicMeshEditor::finish(const IntrinsicTriangulation& before
   T.seam = Rows<std::uint8_t, 3>::Zero(n, 3);
   T.orientation.assign(faces.size(), 1);
   T.edge_use.assign(T.n_edges(), 0);
-  std::vector<int> new_edge(edges.size(), -1), first_side_sign(edges.size(), 0),
-      first_left(edges.size());
-  std::vector<char> mirrored(edges.size(), 0);
+  struct Renewed {
+    int number = -1, first_side_sign = 0, first_left = 0;
+    bool mirrored = false;
+  };
+  std::vector<Renewed> renewed(edges.size());
+  T.triangle_of_face.reserve(faces.size());
   for (int f = 0; f < T.n_faces(); ++f) {
+    if (f + faces_ahead < T.n_faces())
+      for (int k = 0; k < 3; ++k) {
+        const int e = faces[f + faces_ahead].e[k], E = out.mesh.side_edge(f + faces_ahead, k);
+        fetch_ahead(&edges[e]);
+        fetch_ahead(&renewed[e]);
+        fetch_ahead(&T.edge_use[E]);
+        fetch_ahead(T.edges.row(E).data());
+      }
     T.triangle_of_face.push_back(f);
     for (int k = 0; k < 3; ++k) {
       const int e = faces[f].e[k], E = out.mesh.side_edge(f, k);
-      new_edge[e] = E;
+      Renewed& edge = renewed[e];
+      edge.number = E;
       T.along(f, k) = out.mesh.side_along(f, k) ? 1 : -1;
       T.length(f, k) = edges[e].length;
       T.edge_use[E] = static_cast<std::uint8_t>(std::min(255, T.edge_use[E] + 1));
       // Faces on the side of the first one lie to the left or right of the edge as that one does.
-      if (first_side_sign[e] == 0) {
-        first_side_sign[e] = faces[f].side_sign[k];
-        first_left[e] = T.along(f, k);
+      if (edge.first_side_sign == 0) {
+        edge.first_side_sign = faces[f].side_sign[k];
+        edge.first_left = T.along(f, k);
         const int left = T.edges(E, 0) == edges[e].tail ? T.along(f, k) : -T.along(f, k);
-        mirrored[e] = left != faces[f].side_sign[k];
-      } else if (T.along(f, k) !=
-                 (faces[f].side_sign[k] == first_side_sign[e] ? first_left[e] : -first_left[e])) {
+        edge.mirrored = left != faces[f].side_sign[k];
+      } else if (T.along(f, k) != (faces[f].side_sign[k] == edge.first_side_sign
+                                       ? edge.first_left
+                                       : -edge.first_left)) {
         T.seam(f, k) = 1;
         T.has_seams = true;
       }
@@ -107,15 +137,16 @@ Retriangulation IntrinsicMeshEditor::finish(const IntrinsicTriangulation& before
 
   for (SurfacePoint& p : nodes_) {
     if (p.on != SurfacePoint::On::edge) continue;
-    const bool same = T.edges(new_edge[p.element], 0) == edges[p.element].tail;
-    p = SurfacePoint::on_edge(new_edge[p.element], same ? p.b[1] : p.b[0]);
+    const int number = renewed[p.element].number;
+    const bool same = T.edges(number, 0) == edges[p.element].tail;
+    p = SurfacePoint::on_edge(number, same ? p.b[1] : p.b[0]);
   }
   for (auto* lists : {&in_face_, &on_edge_})
     for (auto& list : *lists)
       for (CurveNetwork::Segment& s : list) {
         if (s.edge >= 0) {
-          s.mirrored = mirrored[s.edge] != 0;
-          s.edge = new_edge[s.edge];
+          s.mirrored = renewed[s.edge].mirrored;
+          s.edge = renewed[s.edge].number;
         }
         out.curves.segments.push_back(s);
       }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <utility>
@@ -154,6 +155,68 @@ TEST(IntrinsicMeshEditor, FlipsAndSplitsLeaveDrawingsInThePlaneInPlace) {
     EXPECT_NEAR(area * T.unit * T.unit, 1, 1e-9);
     expect_in_place(Drawn(mesh, curves), after);
   }
+}
+
+TEST(IntrinsicMeshEditor, TrianglesAreTheSameWhereNothingIsDrawn) {
+  PolygonSoup soup = test::jittered_grid_soup(6, 6, 0.25);
+  soup.points.conservativeResize(soup.n_vertices() + 2, 3);  // two more pages at an edge
+  soup.points.bottomRows(2) << 0.5, 0.5, 1, 0.5, 0.5, -1;
+  const int inner = 3 * 7 + 3;
+  test::add_triangle(soup, inner, inner + 1, soup.n_vertices() - 2);
+  test::add_triangle(soup, inner, inner + 1, soup.n_vertices() - 1);
+  const SurfaceMesh mesh(soup);
+  Report report;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  CurveNetwork curves;
+  curves.nodes = {SurfacePoint::in_face(0, 0.2, 0.3, 0.5), SurfacePoint::in_face(0, 0.4, 0.4, 0.2)};
+  curves.segments = {{0, 0, 1, 0, 1, 0, -1, false}};
+  IntrinsicMeshEditor drawn(mesh, T, curves), plain(mesh, T, {});
+  std::mt19937 random(5);
+  int flips = 0, splits = 0;
+  for (int i = 0; i < 300; ++i) {
+    const int e = static_cast<int>(random() % plain.edges.size());
+    const bool did = i % 3 == 0 ? plain.split(e) : plain.flip(e);
+    ASSERT_EQ(i % 3 == 0 ? drawn.split(e) : drawn.flip(e), did);
+    (i % 3 == 0 ? splits : flips) += did;
+  }
+  EXPECT_GT(flips, 20);
+  EXPECT_GT(splits, 50);
+  for (std::size_t e = 0; e < plain.edges.size(); ++e) {
+    const auto& faces = plain.edges[e].faces;
+    EXPECT_TRUE(std::equal(faces.begin(), faces.end(), drawn.edges[e].faces.begin(),
+                           drawn.edges[e].faces.end()));
+    ASSERT_FALSE(faces.empty());
+    double sum = 0;
+    for (const int f : faces) {
+      const auto& sides = plain.faces[std::size_t(f)].e;
+      const auto k = std::find(sides.begin(), sides.end(), int(e)) - sides.begin();
+      ASSERT_LT(k, 3);
+      sum += plain.shape(f).cot[std::size_t(k + 2) % 3];
+    }
+    EXPECT_EQ(plain.delaunay_sum(int(e)), sum);
+  }
+  const Retriangulation a = std::move(plain).finish(T), b = std::move(drawn).finish(T);
+  EXPECT_EQ(a.T.faces.matrix(), b.T.faces.matrix());
+  EXPECT_EQ(a.T.length, b.T.length);
+  EXPECT_EQ(a.T.seam, b.T.seam);
+  EXPECT_EQ(b.curves.nodes.size(), 2 + b.curves.segments.size() - 1);
+}
+
+TEST(FacesOfEdge, AreThoseThatWereAdded) {
+  FacesOfEdge faces{4, 7};
+  std::vector<int> expected{4, 7};
+  for (const int f : {1, 9, 3}) {
+    faces.push_back(f);
+    expected.push_back(f);
+    EXPECT_EQ(std::vector<int>(faces.begin(), faces.end()), expected);
+  }
+  FacesOfEdge moved = std::move(faces);
+  EXPECT_EQ(moved.size(), 5u);
+  EXPECT_EQ(moved[4], 3);
+  moved.clear();
+  EXPECT_TRUE(moved.empty());
+  for (const int f : {8, 6, 5}) moved.push_back(f);
+  EXPECT_EQ(std::vector<int>(moved.begin(), moved.end()), (std::vector<int>{8, 6, 5}));
 }
 
 }  // namespace

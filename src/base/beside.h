@@ -19,8 +19,8 @@ class Beside {
   Beside(const Beside&) = delete;
   Beside& operator=(const Beside&) = delete;
 
-  /// Returns when it is done, which is here if nothing has been done; throws what it threw, and
-  /// Cancelled within 0.05 s of a request. Once.
+  /// Returns when it is done, by the caller where there is no other thread; throws what it threw,
+  /// and Cancelled within 0.05 s of a request. Once.
   void finish(const Task& task);
 
  private:

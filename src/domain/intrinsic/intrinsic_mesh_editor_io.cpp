@@ -9,7 +9,7 @@
 namespace littoral {
 
 namespace {
-constexpr int faces_ahead = 8;  // faces, whose edges lie anywhere
+constexpr int faces_ahead = 8;  // whose edges lie anywhere
 }  // namespace
 
 IntrinsicMeshEditor::IntrinsicMeshEditor(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,

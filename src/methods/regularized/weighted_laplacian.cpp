@@ -15,8 +15,8 @@ namespace littoral {
 namespace {
 
 constexpr std::size_t columns_at_once = 4096;
-constexpr Eigen::Index ahead = 24, far_ahead = 96;
-constexpr double rounding = 1e-6;  // of the diagonal, between L and D G
+constexpr Eigen::Index ahead = 24, far_ahead = 96;  // entries of D
+constexpr double rounding = 1e-6;                   // of the diagonal, between L and D G
 
 }  // namespace
 

@@ -14,7 +14,7 @@ namespace littoral {
 namespace {
 
 constexpr std::size_t row_grain = 1 << 14;
-constexpr Eigen::Index rows_ahead = 16;
+constexpr Eigen::Index entries_ahead = 16;
 
 void counts_to_begins(int* begin, Eigen::Index rows) {
   std::partial_sum(begin, begin + rows + 1, begin);
@@ -158,8 +158,8 @@ SpRows transposed(const SpRows& A) {
   std::vector<int> at(begin, begin + T.rows());
   for (int i = 0; i < A.rows(); ++i)
     for (int e = A.outerIndexPtr()[i]; e < A.outerIndexPtr()[i + 1]; ++e) {
-      if (e + rows_ahead < A.nonZeros()) {
-        const int next = at[A.innerIndexPtr()[e + rows_ahead]];
+      if (e + entries_ahead < A.nonZeros()) {
+        const int next = at[A.innerIndexPtr()[e + entries_ahead]];
         fetch_ahead(T.innerIndexPtr() + next);
         fetch_ahead(T.valuePtr() + next);
       }

@@ -12,10 +12,13 @@
 #include "littoral/error.h"
 #include "shared_data.h"
 #include "space_helpers.h"
+#include "surface_bytes.h"
 #include "tet_helpers.h"
 
 namespace littoral {
 namespace {
+
+using test::replaced;
 
 const std::string medit =
     "MeshVersionFormatted 2\n# a comment\nDimension\n3\nVertices\n4\n0 0 0 1\n1 0 0 1\n0 1 0 2\n"
@@ -97,12 +100,6 @@ TEST(TetFiles, XmlHoldsEveryBlock) {
   EXPECT_THROW(io::write_tets("x.vtk", mesh, VecX::Ones(26)), InputError);
   EXPECT_THROW(io::write_tets("/nonexistent/x.vtk", mesh, VecX::Ones(27)), IoError);
   std::filesystem::remove(path);
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
 }
 
 TEST(TetFiles, ErrorsNameFileLineAndElement) {

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstring>
 #include <ostream>
+#include <span>
 
 namespace littoral::io {
 
@@ -32,6 +33,15 @@ void store_little(std::ostream& out, T value) {
   auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
   if (std::endian::native != std::endian::little) std::reverse(bytes.begin(), bytes.end());
   out.write(bytes.data(), sizeof(T));
+}
+
+/// The same for many.
+template <class T>
+void store_all_little(std::ostream& out, std::span<const T> values) {
+  if (std::endian::native == std::endian::little)
+    out.write(reinterpret_cast<const char*>(values.data()), std::streamsize(values.size_bytes()));
+  else
+    for (const T value : values) store_little(out, value);
 }
 
 }  // namespace littoral::io

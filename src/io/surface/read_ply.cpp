@@ -8,108 +8,14 @@
 
 #include "base/counted.h"
 #include "base/index.h"
-#include "io/binary.h"
+#include "base/parallel.h"
+#include "io/surface/ply_bodies.h"
 #include "io/surface/ply_header.h"
 #include "io/surface/surface_formats.h"
-#include "io/text_scan.h"
 #include "littoral/error.h"
 
 namespace littoral::io {
 namespace {
-
-// Values of a text body: a row of an element is a line.
-class TextBody {
- public:
-  TextBody(std::string_view bytes, const std::string& name, const PlyHeader& header)
-      : scan_(bytes.substr(header.body), name, '\0', false, header.body_line) {}
-
-  void begin_row(const PlyElement& element, std::uint64_t row) {
-    if (scan_.next()) return;
-    fail("the file ends after " + std::to_string(row) + " of " + std::to_string(element.count) +
-         " of element " + in_quotes(element.name));
-  }
-  double value(PlyType) { return scan_.number("a number"); }
-  void values(PlyType, std::uint64_t n, double* out) {
-    for (std::uint64_t i = 0; i < n; ++i) out[i] = scan_.number("a number");
-  }
-  std::uint64_t most_left(PlyType) const { return scan_.line_bytes_left(); }
-  /// Some programs write more values behind the corners of a face than their header has.
-  void end_row(bool may_have_more) {
-    if (!may_have_more) scan_.expect_end();
-  }
-  std::size_t bytes_left() const { return scan_.line_bytes_left(); }
-  [[noreturn]] void fail(const std::string& text) const { scan_.fail(text); }
-
- private:
-  LineScanner scan_;
-};
-
-// Values of a binary body.
-class BinaryBody {
- public:
-  BinaryBody(std::string_view bytes, const std::string& name, const PlyHeader& header)
-      : bytes_(bytes),
-        name_(name),
-        order_(header.format == PlyFormat::big_endian ? std::endian::big : std::endian::little),
-        at_(header.body) {}
-
-  void begin_row(const PlyElement& element, std::uint64_t row) {
-    element_ = &element;
-    row_ = row;
-  }
-  double value(PlyType type) {
-    double out = 0;
-    values(type, 1, &out);
-    return out;
-  }
-  /// The next n of one type.
-  void values(PlyType type, std::uint64_t n, double* out) {
-    switch (type) {
-      case PlyType::int8:
-        return take<std::int8_t>(n, out);
-      case PlyType::uint8:
-        return take<std::uint8_t>(n, out);
-      case PlyType::int16:
-        return take<std::int16_t>(n, out);
-      case PlyType::uint16:
-        return take<std::uint16_t>(n, out);
-      case PlyType::int32:
-        return take<std::int32_t>(n, out);
-      case PlyType::uint32:
-        return take<std::uint32_t>(n, out);
-      case PlyType::float32:
-        return take<float>(n, out);
-      case PlyType::float64:
-        return take<double>(n, out);
-    }
-  }
-  std::uint64_t most_left(PlyType type) const { return bytes_left() / byte_size(type); }
-  void end_row(bool) {}
-  std::size_t bytes_left() const { return bytes_.size() - at_; }
-  [[noreturn]] void fail(const std::string& text) const {
-    throw InputError(name_ + ": byte " + std::to_string(at_) + ": " + text, "bad-file");
-  }
-
- private:
-  template <class T>
-  void take(std::uint64_t n, double* out) {
-    const std::uint64_t there = bytes_left() / sizeof(T);
-    const char* from = bytes_.data() + at_;
-    at_ += std::min(n, there) * sizeof(T);
-    if (there < n) {
-      fail("the file ends after " + std::to_string(row_) + " of " +
-           std::to_string(element_->count) + " of element " + in_quotes(element_->name));
-    }
-    for (std::uint64_t i = 0; i < n; ++i) out[i] = load<T>(from + i * sizeof(T), order_);
-  }
-
-  std::string_view bytes_;
-  const std::string& name_;
-  std::endian order_;
-  std::size_t at_;
-  const PlyElement* element_ = nullptr;
-  std::uint64_t row_ = 0;
-};
 
 constexpr int unused = -1;  // a property that the element does not have
 
@@ -148,19 +54,26 @@ class PlyReader {
   }
 
  private:
-  // Reads all rows of an element: scalar property i into row_[i], list property `list` into list_.
-  template <class Visit>
-  void rows(const PlyElement& element, int list, const Visit& visit) {
-    const std::vector<PlyProperty>& properties = element.properties;
-    row_.assign(properties.size(), 0);
-    std::vector<std::size_t> run_end(properties.size());  // of scalars of one type
+  // Where a run of scalars of one type ends; a list is one by itself.
+  static std::vector<std::size_t> run_ends(const std::vector<PlyProperty>& properties) {
+    std::vector<std::size_t> run_end(properties.size());
     for (std::size_t i = properties.size(); i-- > 0;) {
       const bool goes_on = i + 1 < properties.size() && !properties[i].is_list &&
                            !properties[i + 1].is_list &&
                            properties[i].type == properties[i + 1].type;
       run_end[i] = goes_on ? run_end[i + 1] : i + 1;
     }
-    for (std::uint64_t r = 0; r < element.count; ++r) {
+    return run_end;
+  }
+
+  // Reads the rows of an element from the first on: scalar property i into row_[i], list property
+  // `list` into list_.
+  template <class Visit>
+  void rows(const PlyElement& element, int list, const Visit& visit, std::uint64_t first = 0) {
+    const std::vector<PlyProperty>& properties = element.properties;
+    row_.assign(properties.size(), 0);
+    const auto run_end = run_ends(properties);
+    for (std::uint64_t r = first; r < element.count; ++r) {
       body_.begin_row(element, r);
       for (std::size_t i = 0; i < properties.size(); i = run_end[i]) {
         const PlyProperty& p = properties[i];
@@ -173,6 +86,34 @@ class PlyReader {
       body_.end_row(list == 0);
       visit(r);
     }
+  }
+
+  // The same for scalars, with the row handed to visit(r, row): rows of one size are read side by
+  // side.
+  template <class Visit>
+  void scalar_rows(const PlyElement& element, const Visit& visit) {
+    const std::vector<PlyProperty>& properties = element.properties;
+    if constexpr (Body::has_sizes) {
+      if (std::ranges::none_of(properties, [](const PlyProperty& p) { return p.is_list; })) {
+        const auto run_end = run_ends(properties);
+        std::size_t bytes = 0;
+        for (const PlyProperty& p : properties) bytes += byte_size(p.type);
+        parallel_for(std::size_t(element.count), 1 << 14, [&](std::size_t r, std::size_t end) {
+          Body body = body_;
+          body.pass(r * bytes);
+          std::vector<double> row(properties.size());
+          for (; r < end; ++r) {
+            body.begin_row(element, r);
+            for (std::size_t i = 0; i < properties.size(); i = run_end[i])
+              body.values(properties[i].type, run_end[i] - i, &row[i]);
+            visit(r, row);
+          }
+        });
+        body_.pass(std::size_t(element.count) * bytes);
+        return;
+      }
+    }
+    rows(element, unused, [&](std::uint64_t r) { visit(r, row_); });
   }
 
   void read_list(const PlyProperty& p, bool keep) {
@@ -236,14 +177,14 @@ class PlyReader {
     }
     soup_.points.resize(n, 3);
     if (normals) soup_.normals.resize(n, 3);
-    rows(element, unused, [&](std::uint64_t r) {
+    scalar_rows(element, [&](std::uint64_t r, const std::vector<double>& row) {
       const auto v = index(r);
       for (std::size_t k = 0; k < 3; ++k) {
         const auto column = index(k);
-        soup_.points(v, column) = row_[position[k]];
-        if (normals) soup_.normals(v, column) = row_[normal[k]];
+        soup_.points(v, column) = row[position[k]];
+        if (normals) soup_.normals(v, column) = row[normal[k]];
       }
-      for (const auto& [i, values] : scalars) (*values)(v) = row_[i];
+      for (const auto& [i, values] : scalars) (*values)(v) = row[i];
     });
   }
 
@@ -264,18 +205,25 @@ class PlyReader {
 
   void read_faces(const PlyElement& element) {
     const int list = needed_corners(element);
+    std::uint64_t triangles = 0;
+    if constexpr (Body::has_sizes)
+      if (soup_.corners.empty())
+        triangles = body_.take_triangles(element, n_vertices_, soup_.corners);
     // Of triangles, as most are; a row takes four bytes or more.
     const std::uint64_t expected = std::min<std::uint64_t>(element.count, body_.bytes_left() / 4);
-    soup_.corners.reserve(3 * expected);
-    soup_.face_offsets.reserve(expected + 1);
-    rows(element, list, [&](std::uint64_t r) {
+    soup_.corners.reserve(3 * (triangles + expected));
+    soup_.face_offsets.reserve(triangles + expected + 1);
+    for (std::uint64_t f = 1; f <= triangles; ++f)
+      soup_.face_offsets.push_back(static_cast<int>(3 * f));
+    const auto add = [&](std::uint64_t r) {
       if (list_.size() < 3) {
         body_.fail("face " + std::to_string(r) + " has " +
                    counted(list_.size(), "corner", "corners") + ", at least 3 are needed");
       }
       for (double v : list_) soup_.corners.push_back(vertex(v, "face", r));
       end_face();
-    });
+    };
+    rows(element, list, add, triangles);
   }
 
   // A list holds any number of strips, each but the last ended by -1. A vertex after the first two

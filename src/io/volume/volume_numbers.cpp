@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "base/index.h"
 #include "io/binary.h"
@@ -59,7 +60,7 @@ VecX load_numbers(std::string_view bytes, NumberKind kind, std::size_t count, st
 }
 
 void store_numbers(std::ostream& out, const VecX& values) {
-  for (double value : values) store_little(out, value);
+  store_all_little(out, std::span<const double>(values.data(), std::size_t(values.size())));
 }
 
 std::size_t load_size(std::string_view bytes, std::endian order) {

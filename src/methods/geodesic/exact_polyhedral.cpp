@@ -121,7 +121,10 @@ class Front {
     const std::size_t n = together_.size(), n_threads = std::size_t(threads_.size());
     const std::size_t most = n_threads > 1 && load > worth_threads ? 4 * n_threads : 1;
     const std::size_t parts = std::min({n, most, RayCrossing::n_shares});
-    while (crew_.size() < parts) crew_.push_back(std::make_unique<RayCrossing>(search_));
+    while (crew_.size() < parts) {
+      crew_.push_back(std::make_unique<RayCrossing>(search_));
+      crew_.back()->envelopes.spare.most_room /= most;  // as much for all as for one
+    }
     threads_.run(parts, [&](std::size_t part) {
       RayCrossing& member = *crew_[part];
       member.clear();

@@ -159,6 +159,8 @@ class WindowBlock {
 /// Blocks that are not in use, by how much they have room for: most live shortly.
 class SpareBlocks {
  public:
+  std::size_t most_room = 30000;  // windows, in all of them
+
   /// An empty block with room for n windows.
   WindowBlock take(std::size_t n) {
     const std::size_t size = size_for(n);
@@ -184,7 +186,7 @@ class SpareBlocks {
   }
 
  private:
-  static constexpr std::size_t least_room = 4, most_room = 30000;  // windows
+  static constexpr std::size_t least_room = 4;  // windows
 
   /// 4, 6, 8, 12, 16, ...
   static std::size_t room_of(std::size_t size) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <thread>
 
@@ -78,6 +79,63 @@ TEST(Beside, ThrowsWhatTheWorkThrew) {
     EXPECT_STREQ(error.what(), "beside");
   }
   const Beside forgotten([](const Task&) { throw std::runtime_error("beside"); });
+  set_thread_count(0);
+}
+
+/// Both threads are in a loop; then one waits for the other; then the loop is over.
+TEST(Beside, GivesWayToLoopsThatKeepAllThreadsBusy) {
+  using std::chrono::milliseconds;
+  set_thread_count(2);
+  std::atomic<int> steps{0}, inside{0}, while_busy{-1};
+  std::atomic<bool> enough{false};
+  const auto goes_on = [&] {
+    const int before = steps;
+    while (steps < before + 3) std::this_thread::yield();
+  };
+  Beside work([&](const Task& task) {
+    for (; !enough; ++steps) task.checkpoint();
+  });
+  goes_on();
+  parallel_for(2, 1, [&](std::size_t piece, std::size_t) {
+    ++inside;
+    while (inside < 2) std::this_thread::yield();
+    if (piece == 0) {
+      const int before = steps;
+      std::this_thread::sleep_for(milliseconds(20));
+      while_busy = steps - before;
+      ++inside;
+    } else {
+      while (inside < 3) std::this_thread::yield();
+      const WaitsForOthers waits;
+      goes_on();
+    }
+  });
+  EXPECT_LE(while_busy, 1);  // that it had begun
+  goes_on();
+  enough = true;
+  work.finish({});
+  set_thread_count(0);
+}
+
+/// Whoever waits for it is one of those who keep the others waiting.
+TEST(Beside, GivesWayToNobodyOnceItIsWaitedFor) {
+  set_thread_count(2);
+  std::atomic<bool> over{false};
+  std::atomic<int> inside{0};
+  std::thread busy([&] {
+    set_thread_count(2);
+    parallel_for(2, 1, [&](std::size_t, std::size_t) {
+      ++inside;
+      while (!over) std::this_thread::yield();
+    });
+  });
+  while (inside < 2) std::this_thread::yield();
+  Beside work([](const Task& task) {
+    for (int i = 0; i < 100; ++i) task.checkpoint();
+  });
+  work.finish({});
+  over = true;
+  busy.join();
   set_thread_count(0);
 }
 

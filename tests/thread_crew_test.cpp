@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -61,6 +62,23 @@ TEST(ThreadCrew, ThrowsWhatTheFirstPieceThrewAndGoesOn) {
     std::atomic<int> sum{0};
     crew.run(10, [&](std::size_t i) { sum += int(i); });
     EXPECT_EQ(sum, 45);
+  }
+  set_thread_count(0);
+}
+
+/// Each thread begins with a share of its own, and may throw before the first piece that does.
+TEST(ThreadCrew, ThrowsWhatTheFirstOfManyThrew) {
+  set_thread_count(4);
+  ThreadCrew crew;
+  for (int round = 0; round < 100; ++round) {
+    try {
+      crew.run(40, [](std::size_t i) {
+        if (i >= 5) throw std::runtime_error(std::to_string(i));
+      });
+      ADD_FAILURE() << "nothing was thrown";
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "5");
+    }
   }
   set_thread_count(0);
 }

@@ -9,7 +9,8 @@
 namespace littoral {
 
 /// Work on a thread of its own while the caller goes on, where more than one thread is to be used
-/// and the system has a place for another; otherwise work that is put off.
+/// and the system has a place for another; otherwise work that is put off. Where it calls
+/// `Task::checkpoint` it gives way to loops that keep as many threads busy as are to be used.
 class Beside {
  public:
   /// What the work is given asks it to stop when nobody waits for it any more.

@@ -28,7 +28,20 @@ thread_local int requested_threads = 0;
 std::atomic<int> most_threads{std::numeric_limits<int>::max()};
 thread_local bool inside_parallel = false;
 thread_local ThreadCrew* kept_crew = nullptr;
+std::atomic<int> at_work{0};  // threads in loops that several share
+
+/// Counts its thread among those.
+struct AtWork {
+  AtWork() { ++at_work; }
+  ~AtWork() { --at_work; }
+  AtWork(const AtWork&) = delete;
+  AtWork& operator=(const AtWork&) = delete;
+};
 }  // namespace
+
+WaitsForOthers::WaitsForOthers() { --at_work; }
+
+WaitsForOthers::~WaitsForOthers() { ++at_work; }
 
 void set_thread_count(int threads) { requested_threads = std::max(0, threads); }
 
@@ -45,15 +58,37 @@ int thread_count() {
 /// A loop that several threads share. Each works as the one that made it would.
 class SharedLoop {
  public:
-  SharedLoop(std::size_t n, const std::function<void(std::size_t)>& body)
-      : n_(n), body_(body), mode_(floating_point_mode()), limit_(memory_limit()) {}
-  SharedLoop(std::size_t n, std::function<void(std::size_t)>&& body) = delete;  // it must stay
+  /// Pieces are begun in order; with several shares in order in each, whose first piece comes first
+  /// for the thread of its number: in loop after loop it finds there what it left in its cache.
+  SharedLoop(std::size_t n, const std::function<void(std::size_t)>& body, std::size_t shares = 1)
+      : shares_(shares), body_(body), mode_(floating_point_mode()), limit_(memory_limit()) {
+    for (std::size_t s = 0; s < shares; ++s) {
+      shares_[s].next = s * n / shares;
+      shares_[s].end = (s + 1) * n / shares;
+    }
+  }
+  SharedLoop(std::size_t n, std::function<void(std::size_t)>&& body,
+             std::size_t shares = 1) = delete;  // it must stay
 
-  void work() {
+  void work(std::size_t thread = 0) {
     inside_parallel = true;
     set_memory_limit(limit_);
     set_floating_point_mode(mode_);
-    for (std::size_t i; (i = next_.fetch_add(1)) < n_;) {
+    for (std::size_t s = 0; s < shares_.size(); ++s) take(shares_[(thread + s) % shares_.size()]);
+    inside_parallel = false;
+  }
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  struct alignas(64) Share {  // a line of memory, which others do not write to
+    std::atomic<std::size_t> next{0};
+    std::size_t end = 0;
+  };
+
+  void take(Share& share) {
+    for (std::size_t i; (i = share.next.fetch_add(1)) < share.end;) {
       try {
         body_(i);
       } catch (...) {
@@ -62,21 +97,17 @@ class SharedLoop {
           failed_ = i;
           error_ = std::current_exception();
         }
-        next_.store(n_);
+        // Not what comes before it: that may fail, too.
+        for (Share& s : shares_)
+          if (s.end > i) s.next = s.end;
       }
     }
-    inside_parallel = false;
-  }
-  void rethrow() const {
-    if (error_) std::rethrow_exception(error_);
   }
 
- private:
-  const std::size_t n_;
+  std::vector<Share> shares_;
   const std::function<void(std::size_t)>& body_;
   const std::uint64_t mode_;
   const double limit_;
-  std::atomic<std::size_t> next_{0};
   std::mutex mutex_;
   std::exception_ptr error_;
   std::size_t failed_ = std::numeric_limits<std::size_t>::max();
@@ -112,18 +143,40 @@ void parallel_for(std::size_t n, std::size_t grain,
   }
   SharedLoop loop(pieces, piece);
   std::vector<std::thread> threads;
-  add_threads(threads, workers - 1, [&] { loop.work(); });
-  loop.work();
+  const auto work = [&] {
+    const AtWork counted;
+    loop.work();
+  };
+  add_threads(threads, workers - 1, work);
+  work();
   for (auto& thread : threads) thread.join();
   loop.rethrow();
+}
+
+void parallel_ranges(std::size_t n, std::size_t least,
+                     const std::function<void(std::size_t, std::size_t)>& body) {
+  const std::size_t threads = inside_parallel ? 1 : std::size_t(std::min(thread_count(), 4));
+  const std::size_t ranges = threads > 1 ? 2 * threads : 1;  // they need not take the same time
+  parallel_for(n, std::max(n / ranges + 1, least), body);
 }
 
 struct Beside::Shared {
   explicit Shared(std::function<void(const Task&)> what) : work(std::move(what)) {}
 
+  /// Leaves the processors to loops that keep all threads busy, until somebody waits: such loops
+  /// are what the caller has to do, and when they end there is a thread to spare.
+  void give_way() const {
+    while (at_work.load() >= threads_wanted && !awaited.load() && !stop.cancelled())
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+  }
+
   const std::function<void(const Task&)> work;
   const CancelToken stop;
-  const std::function<void(std::size_t)> piece = [this](std::size_t) { work(Task(stop)); };
+  const int threads_wanted = thread_count();
+  std::atomic<bool> awaited{false};
+  const std::function<void(std::size_t)> piece = [this](std::size_t) {
+    work(Task(stop, [this](double, const std::string&) { give_way(); }));
+  };
   SharedLoop loop{1, piece};
   std::promise<void> over;
   std::future<void> ended = over.get_future();
@@ -149,6 +202,7 @@ void Beside::finish(const Task& task) {
     shared_->work(task);
     return;
   }
+  shared_->awaited = true;
   while (shared_->ended.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready)
     stop_if_cancelled(task);
   shared_->loop.rethrow();
@@ -172,6 +226,7 @@ struct ThreadCrew::Shared {
     add_threads(threads, std::size_t(n_threads - 1), [this] { help(); });
   }
   void help() {
+    const std::size_t number = ++helpers;  // the caller is 0
     for (std::uint64_t seen = 0;;) {
       wait(begun, [&] { return round.load() != seen; });
       SharedLoop* mine = nullptr;
@@ -183,7 +238,7 @@ struct ThreadCrew::Shared {
         if (mine == nullptr) continue;  // too late
         ++inside;
       }
-      mine->work();
+      mine->work(number);
       const std::lock_guard lock(mutex);
       if (--inside == 0) ended.notify_one();
     }
@@ -212,6 +267,7 @@ struct ThreadCrew::Shared {
   std::mutex mutex;  // of all that follows; two of it are read without
   std::condition_variable begun, ended;
   std::atomic<std::uint64_t> round{0};
+  std::atomic<std::size_t> helpers{0};
   std::atomic<int> inside{0};  // threads in the loop, without the caller's
   SharedLoop* loop = nullptr;  // what there is to do
   bool over = false;
@@ -233,7 +289,7 @@ void ThreadCrew::run(std::size_t n, const std::function<void(std::size_t)>& body
     return;
   }
   if (!shared_->started) shared_->start();
-  SharedLoop loop(n, body);
+  SharedLoop loop(n, body, std::size_t(size()));
   shared_->begin(&loop);
   loop.work();
   shared_->end();

@@ -21,4 +21,19 @@ int requested_thread_count();  // as it was set: 0 = all cores
 void parallel_for(std::size_t n, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
+/// While it lives, its thread, one of those of a loop, waits for the others.
+class WaitsForOthers {
+ public:
+  WaitsForOthers();
+  ~WaitsForOthers();
+  WaitsForOthers(const WaitsForOthers&) = delete;
+  WaitsForOthers& operator=(const WaitsForOthers&) = delete;
+};
+
+/// Calls body(begin, end) for a few ranges of at least `least` that make up [0, n), as many as suit
+/// the threads: where each range costs a walk over everything, of which it takes what is its own.
+/// What comes of it must not depend on where ranges end.
+void parallel_ranges(std::size_t n, std::size_t least,
+                     const std::function<void(std::size_t begin, std::size_t end)>& body);
+
 }  // namespace littoral

@@ -40,7 +40,10 @@ class ReadyNodes {
   /// The next node, waiting until there is one; -1 when all are done.
   int take() {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return !ready_.empty() || left_ == 0; });
+    if (ready_.empty() && left_ > 0) {
+      const WaitsForOthers waits;
+      changed_.wait(lock, [&] { return !ready_.empty() || left_ == 0; });
+    }
     if (left_ == 0) return -1;
     const int i = ready_.top();
     ready_.pop();

@@ -8,6 +8,7 @@
 #include "base/disjoint_sets.h"
 #include "base/fetch_ahead.h"
 #include "base/index.h"
+#include "base/now_and_then.h"
 #include "base/parallel.h"
 #include "operators/connection_laplacian.h"
 #include "operators/sum_over_triangles.h"
@@ -207,6 +208,34 @@ void find_pieces(const IntrinsicTriangulation& T, VectorDiffusion& V) {
   }
 }
 
+/// more(C) is called when all but C.L is there. The Laplacian is made beside both: it takes as
+/// long.
+template <class More>
+Calculus calculus_beside(const Triangulation& T, const Task& task, const More& more) {
+  Calculus C;
+  parallel_for(2, 1, [&](std::size_t half, std::size_t) {
+    if (half == 0) {
+      C.L = cotan_laplacian(*T, task);
+      return;
+    }
+    C.G = gradient(T);
+    C.A.resize(T->n_faces());
+    for (int f = 0; f < T->n_faces(); ++f)
+      C.A[f] = area_of_lengths(T->length(f, 0), T->length(f, 1), T->length(f, 2));
+    C.M = VecX::Zero(T->n_vertices);
+    add_thirds(C.A, T->faces.matrix(), C.M);
+    stop_if_cancelled(task);
+    C.component = T->component;
+    C.boundary.assign(T->n_vertices, 0);
+    for (int e = 0; e < T->n_edges(); ++e)
+      if (T->edge_use[e] == 1) C.boundary[T->edges(e, 0)] = C.boundary[T->edges(e, 1)] = 1;
+    more(C);
+  });
+  C.h = T->mean_edge_length;
+  C.n_components = T->n_components;
+  return C;
+}
+
 }  // namespace
 
 void add_radial_measure(const IntrinsicTriangulation& T, std::span<const PointInFace> where,
@@ -246,26 +275,7 @@ VecX Calculus::divergence(const VecX& Y) const {
 
 Calculus triangle_calculus(const std::shared_ptr<const IntrinsicTriangulation>& T,
                            const Task& task) {
-  Calculus C;
-  parallel_for(2, 1, [&](std::size_t half, std::size_t) {  // neither needs anything of the other
-    if (half == 0) {
-      C.L = cotan_laplacian(*T, task);
-      return;
-    }
-    C.G = gradient(T);
-    C.A.resize(T->n_faces());
-    for (int f = 0; f < T->n_faces(); ++f)
-      C.A[f] = area_of_lengths(T->length(f, 0), T->length(f, 1), T->length(f, 2));
-    C.M = VecX::Zero(T->n_vertices);
-    add_thirds(C.A, T->faces.matrix(), C.M);
-    C.component = T->component;
-    C.boundary.assign(T->n_vertices, 0);
-    for (int e = 0; e < T->n_edges(); ++e)
-      if (T->edge_use[e] == 1) C.boundary[T->edges(e, 0)] = C.boundary[T->edges(e, 1)] = 1;
-  });
-  C.h = T->mean_edge_length;
-  C.n_components = T->n_components;
-  return C;
+  return calculus_beside(T, task, [](const Calculus&) {});
 }
 
 Operators triangle_operators(const IntrinsicTriangulation& T) {
@@ -277,9 +287,16 @@ Operators triangle_operators(const std::shared_ptr<const IntrinsicTriangulation>
   Operators ops;
   ops.domain = "triangle mesh";
   ops.unit = T->unit;
-  ops.scalar = triangle_calculus(T, task);
   VectorDiffusion& V = ops.vector;
   V.n = T->n_edges();
+  ops.scalar = calculus_beside(T, task, [&](const Calculus& C) {
+    V.M = VecX::Zero(V.n);
+    add_thirds(C.A, T->side_edge.matrix(), V.M);  // eq. 7
+    stop_if_cancelled(task);
+    V.to_cells = edges_to_faces(T);
+    stop_if_cancelled(task);
+    find_pieces(*T, V);
+  });
   V.ends = T->edges;
   if (T->has_seams) {
     V.L_real = [T](const Task&) { return connection_laplacian_real(*T); };
@@ -288,16 +305,6 @@ Operators triangle_operators(const std::shared_ptr<const IntrinsicTriangulation>
     V.L_rows = [T] { return connection_rows(T); };
   }
   V.h = T->mean_edge_length / 2;
-  task.checkpoint();
-  parallel_for(2, 1, [&](std::size_t half, std::size_t) {  // neither needs anything of the other
-    if (half == 0) {
-      V.M = VecX::Zero(V.n);
-      add_thirds(ops.scalar.A, T->side_edge.matrix(), V.M);  // eq. 7
-      V.to_cells = edges_to_faces(T);
-    } else {
-      find_pieces(*T, V);
-    }
-  });
   return ops;
 }
 

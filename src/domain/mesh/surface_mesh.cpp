@@ -81,11 +81,7 @@ double check_faces(const PolygonSoup& soup) {
 std::vector<int> first_sides_by_ends(const PolygonSoup& soup) {
   using Side = std::uint64_t;  // the larger vertex, then the side: ascending as sides are given
   const std::size_t n = std::size_t(soup.n_vertices());
-  // Sides with the same smaller vertex are few: match them there. Each range of vertices is done by
-  // one thread, which goes over all faces for it; the first ranges have more than the last.
-  const std::size_t threads = std::size_t(std::min(thread_count(), 4));
-  const std::size_t ranges = threads > 1 ? 2 * threads : 1;
-  const std::size_t range = std::max(n / ranges + 1, vertex_grain);
+  // Sides with the same smaller vertex are few: match them there.
   const auto for_sides = [&](std::size_t from, std::size_t to, const auto& visit) {
     for (int f = 0; f < soup.n_faces(); ++f) {
       const auto corners = soup.face(f);
@@ -98,12 +94,12 @@ std::vector<int> first_sides_by_ends(const PolygonSoup& soup) {
   };
   std::vector<int> begin(n + 1, 0), first_side(soup.corners.size());
   std::vector<Side> by_low(soup.corners.size());
-  parallel_for(n, range, [&](std::size_t from, std::size_t to) {
+  parallel_ranges(n, vertex_grain, [&](std::size_t from, std::size_t to) {
     for_sides(from, to, [&](std::size_t low, int, std::size_t) { ++begin[low]; });
   });
   int sum = 0;
   for (int& b : begin) sum += std::exchange(b, sum);
-  parallel_for(n, range, [&](std::size_t from, std::size_t to) {
+  parallel_ranges(n, vertex_grain, [&](std::size_t from, std::size_t to) {
     auto at = by_low.begin() + begin[from];
     for_sides(from, to, [&](std::size_t low, int high, std::size_t side) {
       by_low[begin[low]++] = Side(high) << 32 | side;  // begin becomes the end of each

@@ -10,7 +10,6 @@
 #include "base/groups.h"
 #include "base/index.h"
 #include "base/large_vector.h"
-#include "base/now_and_then.h"
 #include "base/parallel.h"
 
 namespace littoral {
@@ -55,7 +54,7 @@ class Marching {
     }
     while (!front_.empty()) {
       const int v = front_.take();
-      stop_now_and_then(int_size(order_), task);
+      if ((order_.size() & 0xfff) == 0) task.checkpoint();
       accepted_[v] = 1;
       order_.push_back(v);
       for (const int c : cells_.at(v)) fetch_ahead(&cell_[std::size_t(c)]);
@@ -67,7 +66,7 @@ class Marching {
   VecX transport(const VecX& b, const Task& task) const {
     VecX through = b, flux = VecX::Zero(2 * A_.size());
     for (std::size_t i = order_.size(); i-- > 0;) {
-      stop_now_and_then(static_cast<int>(i), task);
+      if ((i & 0xfff) == 0) task.checkpoint();
       const int v = order_[i];
       const Way& way = way_[v];
       if (way.cell < 0) continue;

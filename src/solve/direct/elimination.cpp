@@ -8,10 +8,13 @@
 #include "base/fetch_ahead.h"
 #include "base/index.h"
 #include "base/now_and_then.h"
+#include "base/parallel.h"
 
 namespace littoral {
 
 namespace {
+
+constexpr std::size_t supernode_grain = 1024;
 
 void sums_to_begins(std::vector<int>& counts) {
   int sum = 0;
@@ -297,20 +300,22 @@ void Elimination::find_rows(const Task& task) {
   for (int s = 0; s < n_super; ++s)
     if (parent[s] >= 0) children[at[parent[s]]++] = s;
   at_parent.resize(rows.size());
-  for (int s = 0; s < n_super; ++s) {
-    stop_now_and_then(s, task);
-    if (parent[s] < 0) continue;
-    const int p = parent[s];
-    std::size_t k = rows_begin[p];
-    for (std::size_t r = rows_begin[s]; r < rows_begin[s + 1]; ++r) {
-      if (rows[r] < first[p + 1]) {
-        at_parent[r] = rows[r] - first[p];
-        continue;
+  parallel_for(std::size_t(n_super), supernode_grain, [&](std::size_t begin, std::size_t end) {
+    stop_if_cancelled(task);
+    for (std::size_t s = begin; s < end; ++s) {
+      const int p = parent[s];
+      if (p < 0) continue;
+      std::size_t k = rows_begin[p];
+      for (std::size_t r = rows_begin[s]; r < rows_begin[s + 1]; ++r) {
+        if (rows[r] < first[p + 1]) {
+          at_parent[r] = rows[r] - first[p];
+          continue;
+        }
+        while (rows[k] != rows[r]) ++k;
+        at_parent[r] = columns(p) + static_cast<int>(k - rows_begin[p]);
       }
-      while (rows[k] != rows[r]) ++k;
-      at_parent[r] = columns(p) + (k - rows_begin[p]);
     }
-  }
+  });
 }
 
 double Elimination::flops() const {
@@ -350,15 +355,15 @@ void Elimination::cut_into_tasks() {
   for (int t = 0; t < n_tasks(); ++t)
     std::fill(task_of.begin() + task_first[t], task_of.begin() + task_first[t + 1], t);
   target.resize(rows.size());
-  for (int t = 0; t < n_tasks(); ++t) {
+  parallel_for(std::size_t(n_tasks()), 1, [&](std::size_t t, std::size_t) {
     const int root = task_parent[t];
-    const auto begin = rows.begin() + rows_begin[root];
-    const auto end = rows.begin() + rows_begin[root + 1];
+    const auto begin = rows.begin() + index(rows_begin[root]);
+    const auto end = rows.begin() + index(rows_begin[root + 1]);
     for (std::size_t r = rows_begin[task_first[t]]; r < rows_begin[root + 1]; ++r)
       target[r] = rows[r] < first[root + 1]
                       ? rows[r]
                       : ~static_cast<int>(std::lower_bound(begin, end, rows[r]) - begin);
-  }
+  });
   for (int& t : task_parent) t = parent[t] < 0 ? -1 : task_of[parent[t]];
 }
 

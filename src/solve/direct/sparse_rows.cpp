@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "base/fetch_ahead.h"
@@ -62,7 +63,7 @@ void multiply_rows(const SpRows& A, Eigen::Index first, Eigen::Index end, const 
 
 void multiply(const SpRows& A, const VecX& x, VecX& y, const Task& task) {
   y.resize(A.rows());
-  parallel_for(A.rows(), row_grain, [&](std::size_t i, std::size_t end) {
+  parallel_for(A.rows(), row_grain / 8, [&](std::size_t i, std::size_t end) {
     stop_if_cancelled(task);
     multiply_rows(A, index(i), index(end), x.data(), y.data());
   });
@@ -151,22 +152,32 @@ VecX SymmetricRows::residual(const SpMat& lower, const VecX& x, const VecX& b) c
 
 SpRows transposed(const SpRows& A) {
   SpRows T(A.cols(), A.rows());
-  int* begin = T.outerIndexPtr();  // zeros
-  for (Eigen::Index e = 0; e < A.nonZeros(); ++e) ++begin[A.innerIndexPtr()[e] + 1];
-  counts_to_begins(begin, T.rows());
-  T.resizeNonZeros(A.nonZeros());
-  std::vector<int> at(begin, begin + T.rows());
-  for (int i = 0; i < A.rows(); ++i)
-    for (int e = A.outerIndexPtr()[i]; e < A.outerIndexPtr()[i + 1]; ++e) {
-      if (e + entries_ahead < A.nonZeros()) {
-        const int next = at[A.innerIndexPtr()[e + entries_ahead]];
-        fetch_ahead(T.innerIndexPtr() + next);
-        fetch_ahead(T.valuePtr() + next);
+  const int* const to = A.innerIndexPtr();
+  const Eigen::Index n_entries = A.nonZeros();
+  std::vector<int> at(std::size_t(T.rows()) + 1, 0);  // counts, and then where each row goes on
+  parallel_ranges(std::size_t(T.rows()), row_grain, [&](std::size_t from, std::size_t end) {
+    for (Eigen::Index e = 0; e < n_entries; ++e)
+      if (std::size_t(to[e]) - from < end - from) ++at[to[e]];
+  });
+  int sum = 0;
+  for (int& a : at) sum += std::exchange(a, sum);
+  std::copy(at.begin(), at.end(), T.outerIndexPtr());
+  T.resizeNonZeros(n_entries);
+  parallel_ranges(std::size_t(T.rows()), row_grain, [&](std::size_t from, std::size_t end) {
+    const auto mine = [&](int row) { return std::size_t(row) - from < end - from; };
+    for (int i = 0; i < A.rows(); ++i)
+      for (int e = A.outerIndexPtr()[i]; e < A.outerIndexPtr()[i + 1]; ++e) {
+        if (e + entries_ahead < n_entries && mine(to[e + entries_ahead])) {
+          const int next = at[to[e + entries_ahead]];
+          fetch_ahead(T.innerIndexPtr() + next);
+          fetch_ahead(T.valuePtr() + next);
+        }
+        if (!mine(to[e])) continue;
+        const int k = at[to[e]]++;
+        T.innerIndexPtr()[k] = i;
+        T.valuePtr()[k] = A.valuePtr()[e];
       }
-      const int k = at[A.innerIndexPtr()[e]]++;
-      T.innerIndexPtr()[k] = i;
-      T.valuePtr()[k] = A.valuePtr()[e];
-    }
+  });
   return T;
 }
 

@@ -104,20 +104,24 @@ class Admm {
     });
   }
 
-  /// Sum over cells of A times term(c, i), the same for any number of threads.
-  template <class Term>
-  double sum_cells(const Term& term) const {
+  /// Sum over cells of A times term(c, i), from none on, the same for any number of threads.
+  template <class Sum, class Term>
+  Sum sum_cells(const Sum& none, const Term& term) const {
     const std::size_t cells = p_.A.size();
-    std::vector<double> part((cells + cells_at_once - 1) / cells_at_once, 0);
-    for_cells(
-        [&](Eigen::Index c, Eigen::Index i) { part[c / cells_at_once] += p_.A[c] * term(c, i); });
-    return std::accumulate(part.begin(), part.end(), 0.0);
+    std::vector<Sum> part((cells + cells_at_once - 1) / cells_at_once, none);
+    parallel_for(cells, cells_at_once, [&](std::size_t begin, std::size_t end) {
+      Sum here = none;
+      for (std::size_t c = begin; c < end; ++c)
+        here += p_.A[index(c)] * term(index(c), index(c) * p_.dim);
+      part[begin / cells_at_once] = here;
+    });
+    return std::accumulate(part.begin(), part.end(), none);
   }
 
   void iterate(bool keep_old) {
     VecX& z = state_.z;
     multiply(D_, pull_, force_, task_);
-    parallel_for(p_.b.size(), cells_at_once, [&](std::size_t i, std::size_t end) {
+    parallel_for(p_.b.size(), cells_at_once / 8, [&](std::size_t i, std::size_t end) {
       for (; i < end; ++i) force_[index(i)] += p_.b[index(i)];
     });
     u_ = solve_cells_ ? solve_cells_(force_) : p_.solve(force_, state_.rho);
@@ -130,7 +134,7 @@ class Admm {
     }
     const double* const before = keep_old ? old_z_.data() : z.data();
     g_.resize(z.size());
-    parallel_for(p_.A.size(), cells_at_once, [&](std::size_t c, std::size_t end) {
+    parallel_for(p_.A.size(), cells_at_once / 8, [&](std::size_t c, std::size_t end) {
       for (; c < end; c += cells_in_cache)
         step_in_cells(index(c), index(std::min(end, c + cells_in_cache)), before);
     });
@@ -172,40 +176,24 @@ class Admm {
   void residuals(AdmmResult& r) {
     const VecX &z = state_.z, &w = state_.w;
     scaled_.resize(z.size());
-    double of_g = 0, of_z = 0;
-    {
-      struct Sums {
-        double split = 0, g = 0, z = 0;
-      };
-      std::vector<Sums> part((p_.A.size() + cells_at_once - 1) / cells_at_once);
-      for_cells([&](Eigen::Index c, Eigen::Index i) {
-        double split = 0, g = 0, of = 0;
-        for (int d = 0; d < p_.dim; ++d) {
-          const double difference = g_[i + d] - z[i + d];
-          split += difference * difference;
-          g += g_[i + d] * g_[i + d];
-          of += z[i + d] * z[i + d];
-          scaled_[i + d] = rho_[c] * (z[i + d] - old_z_[i + d]);
-        }
-        Sums& sums = part[c / cells_at_once];
-        sums.split += p_.A[c] * split;
-        sums.g += p_.A[c] * g;
-        sums.z += p_.A[c] * of;
-      });
-      double of_split = 0;
-      for (const Sums& sums : part) {
-        of_split += sums.split;
-        of_g += sums.g;
-        of_z += sums.z;
+    const auto norms = sum_cells(Eigen::Array3d(0, 0, 0), [&](Eigen::Index c, Eigen::Index i) {
+      Eigen::Array3d squared(0, 0, 0);  // of g - z, of g, of z
+      for (int d = 0; d < p_.dim; ++d) {
+        const double difference = g_[i + d] - z[i + d];
+        squared[0] += difference * difference;
+        squared[1] += g_[i + d] * g_[i + d];
+        squared[2] += z[i + d] * z[i + d];
+        scaled_[i + d] = rho_[c] * (z[i + d] - old_z_[i + d]);
       }
-      r.primal = std::sqrt(of_split / total_);
-    }
+      return squared;
+    });
+    r.primal = std::sqrt(norms[0] / total_);
     r.dual = force_of(scaled_);
     for_cells([&](Eigen::Index c, Eigen::Index i) {
       for (int d = 0; d < p_.dim; ++d) scaled_[i + d] = rho_[c] * w[i + d];
     });
     primal_tolerance_ = std::sqrt(double(p_.dim) * double(p_.A.size())) * o_.absolute +
-                        o_.relative * std::sqrt(std::max(of_g, of_z) / total_);
+                        o_.relative * std::sqrt(std::max(norms[1], norms[2]) / total_);
     dual_tolerance_ =
         std::sqrt(double(p_.b.size())) * o_.absolute + o_.relative * force_of(scaled_);
     if (!std::isfinite(r.primal) || !std::isfinite(r.dual))
@@ -284,9 +272,9 @@ class Admm {
     const auto squared = [&](const VecX& x) { return p_.quadratic ? x.dot(p_.quadratic(x)) : 0; };
     const VecX y = times_penalties(g_) - old_pull_;
     const double phi = sum_cells(
-        [&](Eigen::Index c, Eigen::Index i) { return p_.energy->value(c, g.data() + i); });
+        0.0, [&](Eigen::Index c, Eigen::Index i) { return p_.energy->value(c, g.data() + i); });
     const double conjugate = sum_cells(
-        [&](Eigen::Index c, Eigen::Index i) { return p_.energy->conjugate(c, y.data() + i); });
+        0.0, [&](Eigen::Index c, Eigen::Index i) { return p_.energy->conjugate(c, y.data() + i); });
     r.objective = 0.5 * shrink * shrink * squared(answer_) - shrink * p_.b.dot(answer_) + phi;
     const double bound = -0.5 * squared(u_) - conjugate;
     // Where the constraints leave nothing but 0, the objective is round-off of this size.

@@ -223,7 +223,9 @@ template <class Partial, class F, class Combine>
 Partial for_elements(std::size_t n, F&& f, Combine&& combine) {
   std::vector<Partial> partial((n + elements_at_once - 1) / elements_at_once);
   parallel_for(n, elements_at_once, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t e = begin; e < end; ++e) f(e, partial[begin / elements_at_once]);
+    Partial here{};  // not in a line of memory with those of other threads
+    for (std::size_t e = begin; e < end; ++e) f(e, here);
+    partial[begin / elements_at_once] = std::move(here);
   });
   Partial total{};
   for (const Partial& p : partial) combine(total, p);

@@ -180,7 +180,9 @@ VecX ConstrainedSystem::Constrained::solve_gauged(const VecX& b) const {
   const std::size_t n = component_.size(), parts = gauge_.cols();
   const std::size_t grain = std::max(unknowns_at_once, 16 * parts);
   VecX rhs(b.size()), sum = VecX::Zero(gauge_.cols());
-  MatX of_piece = MatX::Zero(gauge_.cols(), index((n + grain - 1) / grain));
+  // Between sums of two pieces there is a line of memory, which threads need not share then.
+  const Eigen::Index line = 64 / sizeof(double);
+  MatX of_piece = MatX::Zero(gauge_.cols() + line, index((n + grain - 1) / grain));
   parallel_for(n, grain, [&](std::size_t i, std::size_t end) {
     auto own = of_piece.col(index(i / grain));
     for (; i < end; ++i) {
@@ -190,7 +192,7 @@ VecX ConstrainedSystem::Constrained::solve_gauged(const VecX& b) const {
       rhs[index(i)] = has_part && !pinned_[i] ? b[index(i)] : 0;
     }
   });
-  for (Eigen::Index k = 0; k < of_piece.cols(); ++k) sum += of_piece.col(k);
+  for (Eigen::Index k = 0; k < of_piece.cols(); ++k) sum += of_piece.col(k).head(sum.size());
   for (int c = 0; c < gauge_.outerSize(); ++c)
     for (SpMat::InnerIterator it(gauge_, c); it; ++it)
       if (!pinned_[it.row()]) rhs[it.row()] -= it.value() * sum[c];

@@ -6,7 +6,9 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -96,8 +98,8 @@ TEST(RayCrossing, KernelsOfAnyWidthGiveTheSameBits) {
       RayBundle rays(plain ? plain_ray_kernels : ray_kernels());
       rays.use(windows);
       rays.look_at(t.above, 1e-9 * t.length);
-      rays.see_where_to({t.above.apex.real(), t.above.apex.imag(), 0.5 * t.length, 1.3, 1, 1e-12,
-                         round % 3 == 0 ? 1 : Window::deep + 1});
+      rays.see_where_to({t.above.apex.real(), t.above.apex.imag(), 0.45 * t.length, 0.55 * t.length,
+                         1.3, 1, 1e-12, round % 3 == 0 ? 1 : Window::deep + 1});
       rays.leave(t.above, t.exit, t.ends, first, last);
       found[plain] = found_numbers(rays.columns(), first, last);
       const WindowKernels& kernels = plain ? plain_window_kernels : window_kernels();
@@ -133,8 +135,9 @@ TEST(RayCrossing, WindowsThatLeaveSayWhichEndsReachThemSooner) {
       RayBundle rays(*kernels);
       rays.use(windows);
       rays.look_at(t.above, 1e-9 * t.length);
-      rays.see_where_to({t.above.apex.real(), t.above.apex.imag(), t.exit.right ? -1 : 2 * t.length,
-                         infinity, infinity, 0, Window::deep + 1});
+      const double crossing = t.exit.right ? -1 : 2 * t.length;
+      rays.see_where_to({t.above.apex.real(), t.above.apex.imag(), crossing, crossing, infinity,
+                         infinity, 0, Window::deep + 1});
       rays.leave(t.above, t.exit, t.ends, 0, rays.size());
       const RayColumns& c = rays.columns();
       for (int i = 0; i < rays.size(); ++i) {
@@ -162,8 +165,9 @@ TEST(RayCrossing, KernelsCutNeighboursWhereComparingThemDoes) {
     RayBundle rays;
     rays.use(windows);
     rays.look_at(t.above, 1e-9 * t.length);
-    rays.see_where_to({t.above.apex.real(), t.above.apex.imag(), t.exit.right ? -1 : 2 * t.length,
-                       infinity, infinity, 0, Window::deep + 1});
+    const double crossing = t.exit.right ? -1 : 2 * t.length;
+    rays.see_where_to({t.above.apex.real(), t.above.apex.imag(), crossing, crossing, infinity,
+                       infinity, 0, Window::deep + 1});
     const RayColumns& c = rays.columns();
     rays.leave(t.above, t.exit, t.ends, 0, rays.size());
     for (int i = 0; i + 1 < rays.size(); ++i) {
@@ -280,6 +284,22 @@ PolygonSoup saddle_soup() {
     test::add_triangle(soup, next, 1 + i, 2 + i);
   }
   return soup;
+}
+
+/// Rays that cross it are left out where they are later than it: it must not seem sooner.
+TEST(RayCrossing, WinnersAreKnownToTheSeventhDigitAndNotSooner) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> exponent(-320, 37);
+  for (int i = 0; i < 10'000; ++i) {
+    const double distance = std::pow(10, exponent(random));
+    const double known = double(PolyhedralSearch::Winner::of(distance, 0.3).distance);
+    EXPECT_GE(known, distance);
+    EXPECT_LE(known, distance * (1 + 1.2e-7) + 1.2e-38);
+  }
+  EXPECT_EQ(PolyhedralSearch::Winner::of(0.5, 0.25).distance, 0.5F);
+  EXPECT_EQ(PolyhedralSearch::Winner::of(1e300, 0.25).distance,
+            std::numeric_limits<float>::infinity());
+  EXPECT_EQ(PolyhedralSearch::Winner::of(0.5, 0.25).crossing, 0.25F);
 }
 
 /// With a turn of 8 pi / 3 around the vertex paths bend into the 2 pi / 3 opposite to where they

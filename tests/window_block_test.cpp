@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace littoral {
@@ -84,6 +86,30 @@ TEST(WindowBlock, AsAVectorOfWindows) {
       for (std::size_t i = 0; i < expected.size(); ++i) expect_same(block[i], expected[i]);
   }
   ASSERT_GT(expected.size(), 20U);
+}
+
+TEST(SpareBlocks, HaveRoomForWhatIsAskedAndHalfAsMuchMoreAtMost) {
+  SpareBlocks spare;
+  for (std::size_t n = 1; n < 3000; ++n) {
+    WindowBlock block = spare.take(n);
+    EXPECT_GE(block.room(), n);
+    EXPECT_LE(block.room(), std::max<std::size_t>(4, n + n / 2));
+    const std::size_t room = block.room();
+    spare.give(std::move(block));
+    EXPECT_EQ(spare.take(room).room(), room);  // the same one
+  }
+}
+
+TEST(SpareBlocks, KeepNoMoreThanTheyMay) {
+  SpareBlocks spare;
+  spare.most_room = 10;
+  WindowBlock first, second;
+  first.reserve(8);
+  second.reserve(12);
+  const double* const memory = first.column(WindowBlock::b0);
+  spare.give(std::move(second));  // too large
+  spare.give(std::move(first));
+  EXPECT_EQ(spare.take(8).column(WindowBlock::b0), memory);
 }
 
 }  // namespace

@@ -22,15 +22,15 @@ namespace {
 /// How many triangles paths run straight through after each time the limit on windows is met.
 constexpr std::array<int, 4> straight = {Window::deep + 1, 16, 4, 0};
 constexpr double most_held = 3e7;      // windows, 2 GB
+constexpr double many_held = 1e6;      // windows, from which on they are forgotten sooner
 constexpr double most_together = 3e4;  // windows
 constexpr double worth_threads = 100;  // windows
 
 class Front {
  public:
   Front(const IntrinsicTriangulation& T, double most_windows, double tolerance)
-      : search_(T), T_(T), most_windows_(most_windows) {
-    search_.tolerance = tolerance;
-    crew_.push_back(std::make_unique<RayCrossing>(search_));
+      : search_(T, tolerance), T_(T), most_windows_(most_windows) {
+    add_member();
   }
 
   void run(const std::vector<PolyhedralStart>& starts, const Task& task) {
@@ -48,7 +48,9 @@ class Front {
         next_check = steps + windows() + 4096;
       }
       go_on(load);
-      const bool full = windows() > budget_ || held() > most_held * double(1 + relaxed_);
+      const double n_held = held();
+      is_crowded_ = n_held > many_held;
+      const bool full = windows() > budget_ || n_held > most_held * double(1 + relaxed_);
       if (full && relaxed_ + 1 < straight.size()) relax();
     }
   }
@@ -59,7 +61,8 @@ class Front {
   double largest_error() const {
     double most = 0;
     for (int v = 0; v < T_.n_vertices; ++v)
-      if (search_.error[v] > 0) most = std::max(most, search_.error[v] / search_.distance[v]);
+      if (const double error = search_.error_at(v); error > 0)
+        most = std::max(most, error / search_.distance[v]);
     return most;
   }
   double windows() const {
@@ -82,6 +85,12 @@ class Front {
     return sum;
   }
 
+  /// All together keep as many windows in spare as one would.
+  void add_member() {
+    crew_.push_back(std::make_unique<RayCrossing>(search_));
+    crew_.back()->envelopes.spare.most_room /= most_parts_;
+  }
+
   void begin(const PolyhedralStart& start) {
     if (start.vertex < 0) {
       crew_[0]->clear();
@@ -98,7 +107,7 @@ class Front {
     search_.distance[v] = distance;
     search_.nearest[v] = source;
     search_.arrival[v] = arrival;
-    search_.error[v] = error;
+    if (search_.tolerance > 0) search_.error[v] = error;
     return true;
   }
 
@@ -118,13 +127,9 @@ class Front {
   /// Lets all that was collected go on. Nobody sees what another of them sends: so they can do it
   /// at the same time, and the answer is the same whether they do or not.
   void go_on(double load) {
-    const std::size_t n = together_.size(), n_threads = std::size_t(threads_.size());
-    const std::size_t most = n_threads > 1 && load > worth_threads ? 4 * n_threads : 1;
-    const std::size_t parts = std::min({n, most, RayCrossing::n_shares});
-    while (crew_.size() < parts) {
-      crew_.push_back(std::make_unique<RayCrossing>(search_));
-      crew_.back()->envelopes.spare.most_room /= most;  // as much for all as for one
-    }
+    const std::size_t n = together_.size();
+    const std::size_t parts = load > worth_threads ? std::min(n, most_parts_) : 1;
+    while (crew_.size() < parts) add_member();
     threads_.run(parts, [&](std::size_t part) {
       RayCrossing& member = *crew_[part];
       member.clear();
@@ -209,7 +214,7 @@ class Front {
 
   /// Windows of edges that the front has passed prune nothing that the ends of the edge do not.
   void forget_passed(std::deque<Passing>& watched, RayCrossing& member) {
-    const std::size_t n = together_.size() / (RayCrossing::n_shares / 2) + 1;
+    const std::size_t n = together_.size() / (RayCrossing::n_shares / (is_crowded_ ? 4 : 2)) + 1;
     for (std::size_t i = 0; i < n && !watched.empty(); ++i) {
       if (watched.size() > 12 && may_have_passed(watched[12])) {
         fetch_ahead(&search_.lists[watched[12].edge]);
@@ -268,10 +273,14 @@ class Front {
   std::vector<int> together_;  // those of what goes on now
   double windows_each_ = 1;    // of the edges among them, the last time
   double now_ = 0;             // where the front is
+  bool is_crowded_ = false;    // many windows are held
   std::array<std::vector<RayCrossing::Batch*>, RayCrossing::n_shares> to_take_;
   std::array<std::deque<Passing>, RayCrossing::n_shares> watched_;
   std::vector<std::unique_ptr<RayCrossing>> crew_;
   ThreadCrew threads_;
+  const std::size_t most_parts_ = threads_.size() > 1 ? std::min(4 * std::size_t(threads_.size()),
+                                                                 RayCrossing::n_shares)
+                                                      : 1;
   int n_reached_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/fetch_ahead.h"
@@ -31,7 +32,7 @@ Complex apex_over(const PolyhedralPages& pages, int side) {
 
 }  // namespace
 
-PolyhedralSearch::PolyhedralSearch(const IntrinsicTriangulation& triangulation)
+PolyhedralSearch::PolyhedralSearch(const IntrinsicTriangulation& triangulation, double tolerance)
     : T(triangulation),
       pages(T),
       lists(T.n_edges()),
@@ -39,11 +40,20 @@ PolyhedralSearch::PolyhedralSearch(const IntrinsicTriangulation& triangulation)
       nearest(VecXi::Constant(T.n_vertices, -1)),
       arrival(T.n_vertices),
       winner(3 * std::size_t(T.n_faces())),
-      error(VecX::Zero(T.n_vertices)) {
+      tolerance(tolerance),
+      error(VecX::Zero(tolerance > 0 ? T.n_vertices : 0)) {
   constexpr std::size_t side_grain = 1 << 16;
   parallel_for(winner.size(), side_grain, [&](std::size_t begin, std::size_t end) {
-    std::fill(winner.begin() + index(begin), winner.begin() + index(end), Winner{infinity, 0});
+    std::fill(winner.begin() + index(begin), winner.begin() + index(end),
+              Winner{std::numeric_limits<float>::infinity(), 0});
   });
+}
+
+PolyhedralSearch::Winner PolyhedralSearch::Winner::of(double distance, double crossing) {
+  using Limits = std::numeric_limits<float>;
+  float above = std::max(float(distance), Limits::min());
+  if (above < distance) above = std::nextafter(above, Limits::infinity());
+  return {above, float(crossing)};
 }
 
 void RayCrossing::clear() {
@@ -79,7 +89,7 @@ void RayCrossing::leave_source(const PolyhedralStart& start) {
 void RayCrossing::leave_vertex(int v) {
   const double d = s_.distance[v];
   const int source = s_.nearest[v];
-  error_ = s_.error[v];
+  error_ = s_.error_at(v);
   for (const int side : s_.pages.around(v)) {
     const int f = side / 3, k1 = side % 3, k2 = (k1 + 1) % 3, k = (k1 + 2) % 3;
     const PolyhedralPages::Triangle& t = triangle(f);
@@ -256,7 +266,9 @@ void RayCrossing::cross(int side) {
   far_ = s_.distance[apex];
   for (int i = rays_.first_covering(); i < rays_.last_covering(); ++i)
     if (c.covers[i]) look(rays_[i], above, side);
-  rays_.see_where_to({above.apex.real(), above.apex.imag(), winner.crossing, winner.distance, far_,
+  const double around = 1e-7 * above.length;
+  rays_.see_where_to({above.apex.real(), above.apex.imag(), winner.crossing - around,
+                      winner.crossing + around, winner.distance, far_,
                       slack_share * (far_ + above.length), s_.most_straight});
   for (const int right : {1, 0}) {
     int first = 0, last = n;
@@ -295,7 +307,7 @@ void RayCrossing::look(const Window& w, const TriangleAbove& above, int side) {
                        {side, t.along[k] < 0 ? 1 - share : share},
                        error_});
   }
-  if (at_apex < winner.distance) winner = {at_apex, crossing};
+  if (at_apex < winner.distance) winner = PolyhedralSearch::Winner::of(at_apex, crossing);
 }
 
 /// Windows from the tail to the head of a side, each compared with the one before it.

@@ -17,11 +17,15 @@ namespace littoral {
 
 /// What the search knows so far.
 struct PolyhedralSearch {
-  explicit PolyhedralSearch(const IntrinsicTriangulation& triangulation);
+  explicit PolyhedralSearch(const IntrinsicTriangulation& triangulation, double tolerance = 0);
 
+  /// The ray through a side that reaches the far corner soonest, to the seventh digit: what its
+  /// neighbours are told is that they cross it, and some may go on a little longer.
   struct Winner {
-    double distance;  // least at the far corner among rays through a side
-    double crossing;  // where they cross the side
+    float distance;  // there, not less
+    float crossing;  // of the side
+
+    static Winner of(double distance, double crossing);
   };
 
   /// The ray that reaches a vertex soonest: the side across from it, 3 triangle + k, and where the
@@ -38,19 +42,20 @@ struct PolyhedralSearch {
   VecXi nearest;
   std::vector<Arrival> arrival;          // vertices
   LargeVector<Winner> winner;            // sides
-  VecX error;                            // vertices; see WindowList
   int most_straight = Window::deep + 1;  // how many triangles paths run straight through
-  double tolerance = 0;                  // share of a distance that merging may change it by
+  const double tolerance;                // share of a distance that merging may change it by
+  VecX error;                            // vertices; see WindowList. Without a tolerance none
 
   EdgeEnds ends(const PolyhedralPages::Edge& edge) const {
     return {distance[edge.tail], distance[edge.head], edge.length};
   }
+  double error_at(int v) const { return tolerance > 0 ? error[v] : 0; }
   /// Lets the processor read ahead what is known of a vertex.
   void fetch(int v) const {
     fetch_ahead(&distance[v]);
     fetch_ahead(&nearest[v]);
     fetch_ahead(&arrival[v]);
-    fetch_ahead(&error[v]);
+    if (tolerance > 0) fetch_ahead(&error[v]);
   }
 };
 

@@ -113,7 +113,7 @@ LITTORAL_INLINE void where_lanes(const RayColumns& c, int n, const CornerNumbers
     load(tag, c.tag + i);
     B left = a0 < 0;
     B right = a1 > 0;
-    const B beyond_left = left & (b0 >= q.crossing), beyond_right = right & (b1 <= q.crossing);
+    const B beyond_left = left & (b0 >= q.to), beyond_right = right & (b1 <= q.from);
     // py bounds the norms from below.
     const B far_left = left & (d0 > reach), far_right = right & (d1 > reach);
     if (any<width>(beyond_left | beyond_right | far_left | far_right)) {

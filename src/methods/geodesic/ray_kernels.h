@@ -39,8 +39,10 @@ inline constexpr std::int64_t apart = 0, cut_once = 1, unclear = 2;
 /// What tells to which sides of the far corner a window goes on.
 struct CornerNumbers {
   double apex_x, apex_y;
-  double crossing, nearest;  // of the ray that reaches the corner soonest, and its distance there
-  double far, slack;         // distance of the corner; nearer by less is a tie
+  /// Of the ray that reaches the corner soonest: it crosses between these, and has this distance
+  /// there.
+  double from, to, nearest;
+  double far, slack;  // distance of the corner; nearer by less is a tie
   std::int64_t most_straight;
 };
 

@@ -27,7 +27,7 @@ void add_asymmetry(const MatX& D, double root, PairStatistics& out, const Task& 
   std::vector<PairCounts> counts(blocks);
   parallel_for(counts.size(), 1, [&](std::size_t block, std::size_t) {
     task.checkpoint();
-    PairCounts& count = counts[block];
+    PairCounts count;
     const Eigen::Index first = index(block) * side, last = std::min(n, first + side);
     for (Eigen::Index rows = first; rows < n; rows += side)
       for (Eigen::Index j = first; j < last; ++j)
@@ -38,6 +38,7 @@ void add_asymmetry(const MatX& D, double root, PairStatistics& out, const Task& 
           count.sum += difference;
           ++count.pairs;
         }
+    counts[block] = count;
   });
   double sum = 0, pairs = 0;
   for (const PairCounts& count : counts) {
@@ -74,7 +75,7 @@ PairStatistics pair_statistics(const MatX& D, double area, const Task& task) {
   parallel_for(counts.size(), 4, [&](std::size_t begin, std::size_t end) {
     task.checkpoint(static_cast<double>(begin) / static_cast<double>(m));
     for (std::size_t p = begin; p < end; ++p) {
-      PairCounts& count = counts[p];
+      PairCounts count;
       for (std::size_t q = p + 1; q < counts.size(); ++q) {
         const double d = S(node(p), index(q));
         if (!std::isfinite(d)) continue;
@@ -92,6 +93,7 @@ PairStatistics pair_statistics(const MatX& D, double area, const Task& task) {
         count.triplets += reached;
         count.largest = std::max(count.largest, (d - least) / root);
       }
+      counts[p] = count;
     }
   });
   double violated = 0;

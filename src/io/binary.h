@@ -35,13 +35,14 @@ void store_little(std::ostream& out, T value) {
   out.write(bytes.data(), sizeof(T));
 }
 
-/// The same for many.
-template <class T>
-void store_all_little(std::ostream& out, std::span<const T> values) {
+/// The same for all numbers of a vector or matrix, as they lie in memory.
+template <class Numbers>
+void store_all_little(std::ostream& out, const Numbers& numbers) {
+  const std::span values(numbers.data(), std::size_t(numbers.size()));
   if (std::endian::native == std::endian::little)
     out.write(reinterpret_cast<const char*>(values.data()), std::streamsize(values.size_bytes()));
   else
-    for (const T value : values) store_little(out, value);
+    for (const auto value : values) store_little(out, value);
 }
 
 }  // namespace littoral::io

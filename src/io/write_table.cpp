@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <span>
 
 #include "io/binary.h"
 #include "io/formats.h"
@@ -78,7 +77,7 @@ void write_npy(std::ostream& out, const Table& table) {
   const bool one = x.cols() == 1;
   write_npy_header(
       out, std::to_string(x.rows()) + "," + (one ? "" : " " + std::to_string(x.cols())), !one);
-  store_all_little(out, std::span<const double>(x.data(), std::size_t(x.size())));
+  store_all_little(out, x);
 }
 
 void write_table(const std::filesystem::path& path, const Table& table) {

@@ -68,11 +68,11 @@ void write_vtu(std::ostream& out, const TetMesh& mesh, const VecX& values,
   arrays.announce("UInt8", "types", 1, tets);
   out << "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
   store_little(out, 8 * n);
-  for (const double x : values) store_little(out, x);
+  store_all_little(out, values);
   store_little(out, 24 * n);
-  for (const double x : mesh.points.reshaped<Eigen::RowMajor>()) store_little(out, x);
+  store_all_little(out, mesh.points);
   store_little(out, 16 * tets);
-  for (const int v : mesh.tets.reshaped<Eigen::RowMajor>()) store_little(out, std::int32_t{v});
+  store_all_little(out, mesh.tets);
   store_little(out, 8 * tets);
   for (std::uint64_t t = 1; t <= tets; ++t) store_little(out, static_cast<std::int64_t>(4 * t));
   store_little(out, tets);

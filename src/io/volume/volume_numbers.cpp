@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <span>
 
 #include "base/index.h"
 #include "io/binary.h"
@@ -59,9 +58,7 @@ VecX load_numbers(std::string_view bytes, NumberKind kind, std::size_t count, st
   return values;
 }
 
-void store_numbers(std::ostream& out, const VecX& values) {
-  store_all_little(out, std::span<const double>(values.data(), std::size_t(values.size())));
-}
+void store_numbers(std::ostream& out, const VecX& values) { store_all_little(out, values); }
 
 std::size_t load_size(std::string_view bytes, std::endian order) {
   if (bytes.size() == 4) return load<std::uint32_t>(bytes.data(), order);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 #include "base/fetch_ahead.h"
@@ -15,6 +14,7 @@ namespace littoral {
 namespace {
 
 constexpr std::size_t row_grain = 1 << 14;
+constexpr std::size_t rows_of_piece = 1 << 11;  // where a piece needs nothing of its own
 constexpr Eigen::Index entries_ahead = 16;
 
 void counts_to_begins(int* begin, Eigen::Index rows) {
@@ -63,7 +63,7 @@ void multiply_rows(const SpRows& A, Eigen::Index first, Eigen::Index end, const 
 
 void multiply(const SpRows& A, const VecX& x, VecX& y, const Task& task) {
   y.resize(A.rows());
-  parallel_for(A.rows(), row_grain / 8, [&](std::size_t i, std::size_t end) {
+  parallel_for(A.rows(), rows_of_piece, [&](std::size_t i, std::size_t end) {
     stop_if_cancelled(task);
     multiply_rows(A, index(i), index(end), x.data(), y.data());
   });
@@ -154,15 +154,14 @@ SpRows transposed(const SpRows& A) {
   SpRows T(A.cols(), A.rows());
   const int* const to = A.innerIndexPtr();
   const Eigen::Index n_entries = A.nonZeros();
-  std::vector<int> at(std::size_t(T.rows()) + 1, 0);  // counts, and then where each row goes on
+  int* const begin = T.outerIndexPtr();  // zeros
   parallel_ranges(std::size_t(T.rows()), row_grain, [&](std::size_t from, std::size_t end) {
     for (Eigen::Index e = 0; e < n_entries; ++e)
-      if (std::size_t(to[e]) - from < end - from) ++at[to[e]];
+      if (std::size_t(to[e]) - from < end - from) ++begin[to[e] + 1];
   });
-  int sum = 0;
-  for (int& a : at) sum += std::exchange(a, sum);
-  std::copy(at.begin(), at.end(), T.outerIndexPtr());
+  counts_to_begins(begin, T.rows());
   T.resizeNonZeros(n_entries);
+  std::vector<int> at(begin, begin + T.rows());
   parallel_ranges(std::size_t(T.rows()), row_grain, [&](std::size_t from, std::size_t end) {
     const auto mine = [&](int row) { return std::size_t(row) - from < end - from; };
     for (int i = 0; i < A.rows(); ++i)

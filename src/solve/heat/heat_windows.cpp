@@ -283,6 +283,7 @@ double HeatWindows<Scalar>::misfit(const ScaledField<Scalar>& field, const HeatS
   parallel_for(n, window_grain, [&](std::size_t first, std::size_t end) {
     std::vector<int> beside;
     BlockRow<Scalar> row;
+    double here = 0;
     stop_if_cancelled(task);
     for (std::size_t k = first; k < end; ++k) {
       const int i = static_cast<int>(k), layer = field.layer[i];
@@ -311,10 +312,10 @@ double HeatWindows<Scalar>::misfit(const ScaledField<Scalar>& field, const HeatS
             size += magnitude(term);
           }
         }
-        double& here = worst[first / window_grain];
         if (size > 0) here = std::max(here, magnitude(sum) / size);
       }
     }
+    worst[first / window_grain] = here;
   });
   return *std::ranges::max_element(worst);
 }

@@ -19,7 +19,8 @@ namespace littoral {
 
 namespace {
 
-constexpr std::size_t cells_at_once = 16384;
+constexpr std::size_t cells_at_once = 2048;
+constexpr std::size_t cells_in_sum = 16384;  // of a piece: sums have other bits with others
 constexpr std::size_t cells_in_cache = 512;  // whose numbers stay there from one loop to the next
 
 constexpr int checks_every = 5;
@@ -108,12 +109,12 @@ class Admm {
   template <class Sum, class Term>
   Sum sum_cells(const Sum& none, const Term& term) const {
     const std::size_t cells = p_.A.size();
-    std::vector<Sum> part((cells + cells_at_once - 1) / cells_at_once, none);
-    parallel_for(cells, cells_at_once, [&](std::size_t begin, std::size_t end) {
+    std::vector<Sum> part((cells + cells_in_sum - 1) / cells_in_sum, none);
+    parallel_for(cells, cells_in_sum, [&](std::size_t begin, std::size_t end) {
       Sum here = none;
       for (std::size_t c = begin; c < end; ++c)
         here += p_.A[index(c)] * term(index(c), index(c) * p_.dim);
-      part[begin / cells_at_once] = here;
+      part[begin / cells_in_sum] = here;
     });
     return std::accumulate(part.begin(), part.end(), none);
   }
@@ -121,7 +122,7 @@ class Admm {
   void iterate(bool keep_old) {
     VecX& z = state_.z;
     multiply(D_, pull_, force_, task_);
-    parallel_for(p_.b.size(), cells_at_once / 8, [&](std::size_t i, std::size_t end) {
+    parallel_for(p_.b.size(), cells_at_once, [&](std::size_t i, std::size_t end) {
       for (; i < end; ++i) force_[index(i)] += p_.b[index(i)];
     });
     u_ = solve_cells_ ? solve_cells_(force_) : p_.solve(force_, state_.rho);
@@ -134,7 +135,7 @@ class Admm {
     }
     const double* const before = keep_old ? old_z_.data() : z.data();
     g_.resize(z.size());
-    parallel_for(p_.A.size(), cells_at_once / 8, [&](std::size_t c, std::size_t end) {
+    parallel_for(p_.A.size(), cells_at_once, [&](std::size_t c, std::size_t end) {
       for (; c < end; c += cells_in_cache)
         step_in_cells(index(c), index(std::min(end, c + cells_in_cache)), before);
     });

@@ -14,6 +14,7 @@
 #include "io/write.h"
 #include "littoral/error.h"
 #include "space_helpers.h"
+#include "test_meshes.h"
 
 namespace littoral::io {
 namespace {
@@ -71,6 +72,23 @@ TEST_F(IoWrite, PlyKeepsEverything) {
   EXPECT_EQ(soup.lines, back.lines);
   EXPECT_EQ(soup.scalars, back.scalars);
   EXPECT_EQ(n_files(), 1);
+}
+
+// Many records are written at once, and these are more.
+TEST_F(IoWrite, PlyAndStlOfManyFacesKeepEverything) {
+  PolygonSoup soup = test::grid_soup(260, 130);
+  soup.scalars["distance"] = soup.points.col(0).array().sin();
+  write_surface(folder_ / "a.stl", soup);
+  const PolygonSoup stl = read_surface(folder_ / "a.stl");
+  ASSERT_EQ(stl.corners.size(), soup.corners.size());
+  for (std::size_t c = 0; c < soup.corners.size(); ++c)
+    ASSERT_EQ(stl.points.row(stl.corners[c]),
+              soup.points.row(soup.corners[c]).cast<float>().cast<double>());
+  for (int f = 0; f < 20000; ++f) soup.add_face(std::vector<int>{f, f + 1, f + 3, f + 2});
+  write_surface(folder_ / "a.ply", soup, "distance");
+  const PolygonSoup back = read_surface(folder_ / "a.ply");
+  expect_same_faces(soup, back);
+  EXPECT_EQ(back.scalars.at("distance"), soup.scalars.at("distance"));
 }
 
 TEST_F(IoWrite, ObjKeepsTheFieldAsU) {

@@ -10,6 +10,7 @@
 #include <memory>
 #include <system_error>
 
+#include "base/platform/large_pages.h"
 #include "io/binary.h"
 #include "io/formats.h"
 #include "io/read.h"
@@ -36,7 +37,10 @@ bool is_packed(const std::filesystem::path& path) {
 /// size: of the file, where that is known.
 std::string all_of(std::FILE* file, const std::filesystem::path& path, std::uintmax_t size) {
   std::string bytes;
-  if (size > 0 && size < bytes.max_size()) bytes.reserve(std::size_t(size));
+  if (size > 0 && size < bytes.max_size()) {
+    bytes.reserve(std::size_t(size));
+    prefer_large_pages(bytes.data(), std::size_t(size));
+  }
   std::array<char, 1 << 16> block;
   while (const std::size_t n = std::fread(block.data(), 1, block.size(), file))
     bytes.append(block.data(), n);

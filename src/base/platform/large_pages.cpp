@@ -11,7 +11,10 @@ namespace littoral {
 
 void prefer_large_pages([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t bytes) {
 #if defined(MADV_HUGEPAGE)
-  (void)madvise(begin, bytes / large_page * large_page, MADV_HUGEPAGE);  // small pages do as well
+  void* first = begin;
+  std::size_t room = bytes;
+  if (std::align(large_page, large_page, first, room))
+    (void)madvise(first, room / large_page * large_page, MADV_HUGEPAGE);  // small pages do as well
 #endif
 }
 

@@ -8,7 +8,7 @@ namespace littoral {
 
 constexpr std::size_t large_page = std::size_t(1) << 21;  // bytes
 
-/// Memory that begins where a large page does shall come in such as it is touched.
+/// Memory shall come in large pages as it is touched, where it holds whole ones.
 void prefer_large_pages(void* begin, std::size_t bytes);
 
 /// Memory that the system hands out as it is touched, in large pages where it has them; null where

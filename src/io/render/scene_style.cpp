@@ -5,6 +5,7 @@
 
 #include "base/index.h"
 #include "base/option_table.h"
+#include "base/parallel.h"
 
 namespace littoral::io {
 
@@ -221,9 +222,12 @@ FieldStyle field_style(const VecX& values, const std::string& name) {
 
 std::vector<Rgb> value_colours(const VecX& values, const std::string& name) {
   const FieldStyle style = field_style(values, name);
-  std::vector<Rgb> out;
-  for (const double value : values)
-    out.push_back(std::isfinite(value) ? value_colour(style, value) : infinite_colour);
+  std::vector<Rgb> out(std::size_t(values.size()));
+  parallel_for(out.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v)
+      out[v] =
+          std::isfinite(values[index(v)]) ? value_colour(style, values[index(v)]) : infinite_colour;
+  });
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -115,7 +116,7 @@ void write_vtp(std::ostream& out, const PolygonSoup& soup, const std::string& fi
 
   const auto block = [&](const auto* data, std::size_t count) {
     store_little(out, static_cast<std::uint64_t>(8 * count));
-    for (std::size_t i = 0; i < count; ++i) store_little(out, data[i]);
+    store_all_little(out, std::span(data, count));
   };
   if (normals) block(soup.normals.data(), 3 * points);
   for (const auto& [name, values] : soup.scalars) block(values.data(), points);

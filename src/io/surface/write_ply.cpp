@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "base/index.h"
 #include "io/binary.h"
 #include "io/render/scene_style.h"
 #include "io/surface/surface_writers.h"
@@ -60,6 +61,35 @@ void write_header(std::ostream& out, const PolygonSoup& soup, bool small_faces, 
   out << "end_header\n";
 }
 
+void store_vertices(std::ostream& out, const PolygonSoup& soup, const std::vector<Rgb>& colours) {
+  const bool normals = soup.normals.rows() > 0;
+  const std::size_t size =
+      sizeof(double) * ((normals ? 6 : 3) + soup.scalars.size()) + (colours.empty() ? 0 : 3);
+  store_records(
+      out, std::size_t(soup.n_vertices()), [size](std::size_t i) { return size * i; },
+      [&](std::size_t i, char* to) {
+        const auto v = index(i);
+        for (int k = 0; k < 3; ++k) to = put_little(to, soup.points(v, k));
+        for (int k = 0; k < 3 && normals; ++k) to = put_little(to, soup.normals(v, k));
+        for (const auto& [name, values] : soup.scalars) to = put_little(to, values(v));
+        if (colours.empty()) return;
+        for (const unsigned char byte : colours[i]) to = put_little(to, byte);
+      });
+}
+
+void store_faces(std::ostream& out, const PolygonSoup& soup, bool small_faces) {
+  const std::size_t head = small_faces ? 1 : 4;  // bytes that count the corners
+  store_records(
+      out, std::size_t(soup.n_faces()),
+      [&](std::size_t f) { return head * f + 4 * std::size_t(soup.face_offsets[f]); },
+      [&](std::size_t f, char* to) {
+        const auto face = soup.face(int(f));
+        to = small_faces ? put_little(to, static_cast<std::uint8_t>(face.size()))
+                         : put_little(to, static_cast<std::int32_t>(face.size()));
+        for (const int v : face) to = put_little(to, static_cast<std::int32_t>(v));
+      });
+}
+
 }  // namespace
 
 void write_ply(std::ostream& out, const PolygonSoup& soup, const std::string& field) {
@@ -70,22 +100,8 @@ void write_ply(std::ostream& out, const PolygonSoup& soup, const std::string& fi
     colours = value_colours(shown->second, field);
   const bool small_faces = largest_face(soup) <= 255;
   write_header(out, soup, small_faces, !colours.empty());
-  for (Eigen::Index v = 0; v < soup.points.rows(); ++v) {
-    for (int k = 0; k < 3; ++k) store_little(out, soup.points(v, k));
-    for (int k = 0; k < 3 && soup.normals.rows() > 0; ++k) store_little(out, soup.normals(v, k));
-    for (const auto& [name, values] : soup.scalars) store_little(out, values(v));
-    if (colours.empty()) continue;
-    for (const unsigned char byte : colours[v]) store_little(out, byte);
-  }
-  for (int f = 0; f < soup.n_faces(); ++f) {
-    const auto face = soup.face(f);
-    if (small_faces) {
-      store_little(out, static_cast<std::uint8_t>(face.size()));
-    } else {
-      store_little(out, static_cast<std::int32_t>(face.size()));
-    }
-    for (int v : face) store_little(out, static_cast<std::int32_t>(v));
-  }
+  store_vertices(out, soup, colours);
+  store_faces(out, soup, small_faces);
   std::int32_t number = 0;
   for (const auto& line : soup.lines) {
     for (std::size_t k = 0; k + 1 < line.size(); ++k) {

@@ -119,19 +119,21 @@ void write_stl(std::ostream& out, const PolygonSoup& soup, const std::string&) {
   std::array<char, 80> header{"binary STL written by littoral"};
   out.write(header.data(), header.size());
   store_little(out, static_cast<std::uint32_t>(soup.n_faces()));
-  for (int f = 0; f < soup.n_faces(); ++f) {
-    const auto face = soup.face(f);
-    const Vec3 a = soup.points.row(face[0]), b = soup.points.row(face[1]),
-               c = soup.points.row(face[2]);
-    // Scaled first: the cross product of huge or tiny sides leaves even the doubles.
-    const Vec3 ab = (b - a).stableNormalized(), ac = (c - a).stableNormalized();
-    const Vec3 normal = ab.cross(ac).stableNormalized();
-    for (double x : normal) store_little(out, static_cast<float>(std::isfinite(x) ? x : 0.0));
-    for (const Vec3& p : {a, b, c}) {
-      for (double x : p) store_little(out, static_cast<float>(x));
-    }
-    store_little(out, std::uint16_t{0});
-  }
+  constexpr std::size_t size = 12 * sizeof(float) + sizeof(std::uint16_t);
+  store_records(
+      out, std::size_t(soup.n_faces()), [](std::size_t f) { return size * f; },
+      [&](std::size_t f, char* to) {
+        const auto face = soup.face(int(f));
+        const Vec3 a = soup.points.row(face[0]), b = soup.points.row(face[1]),
+                   c = soup.points.row(face[2]);
+        // Scaled first: the cross product of huge or tiny sides leaves even the doubles.
+        const Vec3 ab = (b - a).stableNormalized(), ac = (c - a).stableNormalized();
+        const Vec3 normal = ab.cross(ac).stableNormalized();
+        for (double x : normal) to = put_little(to, static_cast<float>(std::isfinite(x) ? x : 0.0));
+        for (const Vec3& p : {a, b, c})
+          for (double x : p) to = put_little(to, static_cast<float>(x));
+        put_little(to, std::uint16_t{0});
+      });
 }
 
 void write_surface(const std::filesystem::path& path, const PolygonSoup& soup,

@@ -115,5 +115,62 @@ TEST(SurfaceMesh, NamesTheVertexThatIsNotFinite) {
   }
 }
 
+// As large as parts of it are numbered by different threads.
+TEST(SurfaceMesh, EdgesOfLargeMeshesAreNumberedAndGroupedInTheSameWay) {
+  PolygonSoup soup = test::grid_soup(140, 130);
+  soup.add_face(std::vector<int>{0, 1, 2, 200, 199});
+  soup.add_face(std::vector<int>{0, 1, 150});  // three faces at an edge
+  const SurfaceMesh mesh(soup);
+  std::map<std::pair<int, int>, int> numbers;
+  std::vector<std::vector<int>> faces;
+  for (int f = 0; f < soup.n_faces(); ++f) {
+    const auto corners = soup.face(f);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const int tail = corners[k], head = corners[(k + 1) % corners.size()];
+      const auto [at, is_new] = numbers.emplace(std::minmax(tail, head), int(numbers.size()));
+      if (is_new) {
+        faces.emplace_back();
+        ASSERT_EQ(mesh.edges().row(at->second), (Eigen::RowVector2i(tail, head)));
+      }
+      ASSERT_EQ(mesh.side_edge(f, int(k)), at->second) << f;
+      faces[at->second].push_back(f);
+    }
+  }
+  ASSERT_EQ(mesh.n_edges(), int(numbers.size()));
+  for (int e = 0; e < mesh.n_edges(); ++e)
+    ASSERT_THAT(mesh.edge_faces(e), ::testing::ElementsAreArray(faces[e])) << e;
+}
+
+// The first few vertices are looked for one by one, the others together.
+TEST(SurfaceMesh, FacesOfAVertexAreTheSameHoweverManyAreAskedFor) {
+  PolygonSoup soup = test::grid_soup(6, 5);
+  soup.add_face(std::vector<int>{3, 9, 3, 20});  // twice at vertex 3
+  MatX3 points(soup.points.rows() + 1, 3);
+  points << soup.points, 0, 0, 9;  // in no face
+  soup.points = points;
+  std::vector<std::vector<int>> expected(soup.n_vertices());
+  for (int f = 0; f < soup.n_faces(); ++f)
+    for (const int v : soup.face(f)) expected[v].push_back(f);
+  for (const int first : {0, 3, 20, soup.n_vertices() - 1}) {
+    const SurfaceMesh mesh(soup);
+    const auto found = mesh.vertex_faces(first);
+    EXPECT_THAT(found, ::testing::ElementsAreArray(expected[first])) << first;
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+      EXPECT_THAT(mesh.vertex_faces(v), ::testing::ElementsAreArray(expected[v])) << v;
+    EXPECT_THAT(found, ::testing::ElementsAreArray(expected[first])) << "kept: " << first;
+  }
+}
+
+TEST(SurfaceMesh, SeveralThreadsMayAskForTheFacesOfVertices) {
+  const PolygonSoup soup = test::grid_soup(30, 30);
+  const SurfaceMesh mesh(soup);
+  std::vector<int> degree(mesh.n_vertices(), 0), found(mesh.n_vertices(), 0);
+  for (const int v : soup.corners) ++degree[v];
+  parallel_for(found.size(), 8, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) found[v] = int(mesh.vertex_faces(int(v)).size());
+  });
+  EXPECT_EQ(found, degree);
+}
+
 }  // namespace
 }  // namespace littoral

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/parallel.h"
 #include "base/platform/large_pages.h"
 
 namespace littoral {
@@ -47,5 +48,17 @@ struct LargePageAllocator {
 /// For what is read here and there.
 template <class T>
 using LargeVector = std::vector<T, LargePageAllocator<T>>;
+
+/// Makes room for n, which all threads touch: pages take long to come where one alone asks for
+/// them.
+template <class T>
+void reserve_together(LargeVector<T>& vector, std::size_t n) {
+  constexpr std::size_t page = 4096, grain = large_page / page;
+  vector.reserve(n);
+  auto* const begin = reinterpret_cast<volatile char*>(vector.data());
+  parallel_for(n * sizeof(T) / page, grain, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) begin[i * page] = 0;
+  });
+}
 
 }  // namespace littoral

@@ -218,7 +218,7 @@ std::vector<InfoEntry> surface_info(const PolygonSoup& soup) {
   Vec3 low = Vec3::Constant(infinity), high = -low;
   int n_bad = 0, n_used = 0;
   for (int v = 0; v < soup.n_vertices(); ++v) {
-    n_used += !mesh.vertex_faces(v).empty();
+    n_used += mesh.vertex_component()[v] >= 0;
     if (!soup.points.row(v).allFinite()) {
       ++n_bad;
       continue;

@@ -1,7 +1,6 @@
 #include "domain/mesh/covering_mesh.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "domain/intrinsic/tufted_cover.h"
 
@@ -26,11 +25,9 @@ CoveringMesh covering_mesh(const SurfaceMesh& mesh, const IntrinsicTriangulation
   C.along.resize(n, 3);
   C.length.resize(n, 3);
   C.orientation.assign(n, 1);
-  C.seam = Rows<std::uint8_t, 3>::Zero(n, 3);
-  C.has_seams = false;
+  C.seams.resize(0, 3);
   C.edge_use.assign(C.n_edges(), 2);
-  C.triangle_of_face.resize(n);
-  std::iota(C.triangle_of_face.begin(), C.triangle_of_face.end(), 0);
+  C.triangle_of_face = FaceTriangles(n);
   for (int f = 0; f < n; ++f)
     for (int k = 0; k < 3; ++k) {
       C.along(f, k) = out.mesh.side_along(f, k) ? 1 : -1;

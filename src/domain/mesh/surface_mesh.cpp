@@ -10,6 +10,7 @@
 #include "base/counted.h"
 #include "base/disjoint_sets.h"
 #include "base/fetch_ahead.h"
+#include "base/large_vector.h"
 #include "base/parallel.h"
 #include "domain/mesh/face_orientation.h"
 #include "littoral/error.h"
@@ -19,18 +20,6 @@ namespace littoral {
 namespace {
 
 constexpr std::size_t vertex_grain = 8192, corner_face_grain = 16384;
-
-/// Lists, for each of n keys, the items that carry it; items stay in order.
-void bucket(const std::vector<int>& key_of_item, const std::vector<int>& value_of_item, int n,
-            std::vector<int>& offsets, std::vector<int>& values) {
-  offsets.assign(n + 1, 0);
-  for (int key : key_of_item) ++offsets[key + 1];
-  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-  values.resize(key_of_item.size());
-  std::vector<int> next(offsets.begin(), offsets.end() - 1);
-  for (std::size_t i = 0; i < key_of_item.size(); ++i)
-    values[next[key_of_item[i]]++] = value_of_item[i];
-}
 
 /// Returns its largest coordinate.
 double check_face(const PolygonSoup& soup, int f) {
@@ -78,7 +67,7 @@ double check_faces(const PolygonSoup& soup) {
 }
 
 /// For each side (by its first corner) the first one with the same two ends.
-std::vector<int> first_sides_by_ends(const PolygonSoup& soup) {
+LargeVector<int> first_sides_by_ends(const PolygonSoup& soup) {
   using Side = std::uint64_t;  // the larger vertex, then the side: ascending as sides are given
   const std::size_t n = std::size_t(soup.n_vertices());
   // Sides with the same smaller vertex are few: match them there.
@@ -92,8 +81,9 @@ std::vector<int> first_sides_by_ends(const PolygonSoup& soup) {
       }
     }
   };
-  std::vector<int> begin(n + 1, 0), first_side(soup.corners.size());
-  std::vector<Side> by_low(soup.corners.size());
+  std::vector<int> begin(n + 1, 0);
+  LargeVector<int> first_side(soup.corners.size());
+  LargeVector<Side> by_low(soup.corners.size());
   parallel_ranges(n, vertex_grain, [&](std::size_t from, std::size_t to) {
     for_sides(from, to, [&](std::size_t low, int, std::size_t) { ++begin[low]; });
   });
@@ -149,43 +139,56 @@ SurfaceMesh::SurfaceMesh(PolygonSoup soup, const std::vector<int>& edge_of_side)
   parts_ = parts;
 }
 
-void SurfaceMesh::Parts::connect(const std::vector<int>& first_side) {
-  std::vector<int> face_of(soup.corners.size());
-  parallel_for(std::size_t(soup.n_faces()), corner_face_grain,
-               [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t f = begin; f < end; ++f)
-                   std::fill(face_of.begin() + soup.face_offsets[f],
-                             face_of.begin() + soup.face_offsets[f + 1], int(f));
-               });
+void SurfaceMesh::Parts::connect(std::span<const int> first_side) {
+  number_edges(first_side);
   parallel_for(2, 1, [&](std::size_t half, std::size_t) {  // neither needs anything of the other
-    if (half == 0) {
-      number_edges(first_side);
-      bucket(side_edge, face_of, static_cast<int>(edges.rows()), edge_offsets, edge_faces);
-    } else {
-      bucket(soup.corners, face_of, soup.n_vertices(), vertex_offsets, vertex_faces);
+    if (half == 0)
+      find_edge_faces();
+    else
       find_components();
-    }
   });
 }
 
-void SurfaceMesh::Parts::number_edges(const std::vector<int>& first_side) {
-  const Eigen::Index n_edges_found = std::count_if(
-      first_side.begin(), first_side.end(), [c = 0](int first) mutable { return first == c++; });
-  edges.resize(n_edges_found, 2);
-  int next = 0;
+void SurfaceMesh::Parts::number_edges(std::span<const int> first_side) {
+  const auto n = std::size_t(soup.n_faces());
+  const auto for_corners = [&](const auto& body) {  // body(piece, begin, end)
+    parallel_for(n, corner_face_grain, [&](std::size_t begin, std::size_t end) {
+      body(begin / corner_face_grain, soup.face_offsets[begin], soup.face_offsets[end]);
+    });
+  };
+  std::vector<int> next((n + corner_face_grain - 1) / corner_face_grain);  // edge, of each piece
+  for_corners([&](std::size_t piece, int begin, int end) {
+    int firsts = 0;
+    for (int c = begin; c < end; ++c) firsts += first_side[c] == c;
+    next[piece] = firsts;
+  });
+  int sum = 0;
+  for (int& number : next) sum += std::exchange(number, sum);
+  edges.resize(sum, 2);
   side_edge.resize(soup.corners.size());
-  for (int f = 0; f < soup.n_faces(); ++f) {
-    const auto corners = soup.face(f);
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const std::size_t c = soup.face_offsets[f] + k;
-      if (first_side[c] != static_cast<int>(c)) {
-        side_edge[c] = side_edge[first_side[c]];
-        continue;
+  parallel_for(n, corner_face_grain, [&](std::size_t begin, std::size_t end) {
+    int number = next[begin / corner_face_grain];
+    for (std::size_t f = begin; f < end; ++f) {
+      const auto corners = soup.face(int(f));
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        const auto c = int(soup.face_offsets[f] + k);
+        if (first_side[c] != c) continue;
+        side_edge[c] = number;
+        edges.row(number++) << corners[k], corners[(k + 1) % corners.size()];
       }
-      side_edge[c] = next;
-      edges.row(next++) << corners[k], corners[(k + 1) % corners.size()];
     }
-  }
+  });
+  for_corners([&](std::size_t, int begin, int end) {
+    for (int c = begin; c < end; ++c)
+      if (first_side[c] != c) side_edge[c] = side_edge[first_side[c]];
+  });
+}
+
+void SurfaceMesh::Parts::find_edge_faces() {
+  edge_faces = groups_of<int>(std::size_t(edges.rows()), [&](const auto& put) {
+    for (int f = 0; f < soup.n_faces(); ++f)
+      for (int c = soup.face_offsets[f]; c < soup.face_offsets[f + 1]; ++c) put(side_edge[c], f);
+  });
 }
 
 void SurfaceMesh::Parts::find_components() {

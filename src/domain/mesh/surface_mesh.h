@@ -6,8 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "base/groups.h"
+#include "base/large_vector.h"
 #include "base/lazy.h"
 #include "base/shared_rows.h"
+#include "domain/mesh/vertex_faces.h"
 #include "littoral/polygon_soup.h"
 #include "littoral/surface_point.h"
 #include "littoral/types.h"
@@ -57,14 +60,9 @@ class SurfaceMesh {
   SharedRows<int, 3> shared_faces() const;
   SharedRows<int, 3> shared_side_edges() const;
   /// Faces at an edge, ascending; a face appears once for each of its sides on the edge.
-  std::span<const int> edge_faces(int e) const {
-    const int* const faces = parts_->edge_faces.data();
-    return {faces + parts_->edge_offsets[e], faces + parts_->edge_offsets[e + 1]};
-  }
-  std::span<const int> vertex_faces(int v) const {
-    const int* const faces = parts_->vertex_faces.data();
-    return {faces + parts_->vertex_offsets[v], faces + parts_->vertex_offsets[v + 1]};
-  }
+  std::span<const int> edge_faces(int e) const { return parts_->edge_faces.at(e); }
+  /// Faces at a vertex, the same way for its corners; found when they are first asked for.
+  std::span<const int> vertex_faces(int v) const { return parts_->vertex_faces.at(v); }
   /// An edge between two vertices, or -1.
   int find_edge(int a, int b) const;
   /// Component of each vertex, by shared faces; -1 for vertices without a face.
@@ -78,16 +76,18 @@ class SurfaceMesh {
  private:
   struct Parts {
     explicit Parts(PolygonSoup of);
-    void connect(const std::vector<int>& first_side);
-    void number_edges(const std::vector<int>& first_side);
+    /// first_side: per corner, the first side of the same edge.
+    void connect(std::span<const int> first_side);
+    void number_edges(std::span<const int> first_side);
+    void find_edge_faces();
     void find_components();
 
     PolygonSoup soup;
     bool triangles = true;
     Rows<int, 2> edges;
-    std::vector<int> side_edge;                 // per corner
-    std::vector<int> edge_offsets, edge_faces;  // edge -> faces
-    std::vector<int> vertex_offsets, vertex_faces;
+    LargeVector<int> side_edge;  // per corner
+    Groups<int> edge_faces;      // edge -> faces
+    VertexFaces vertex_faces{soup};
     std::vector<int> vertex_component;
     int n_components = 0;
     double scale = 1;

@@ -35,13 +35,14 @@ Complex apex_over(const PolyhedralPages& pages, int side) {
 PolyhedralSearch::PolyhedralSearch(const IntrinsicTriangulation& triangulation, double tolerance)
     : T(triangulation),
       pages(T),
-      lists(T.n_edges()),
       distance(VecX::Constant(T.n_vertices, infinity)),
       nearest(VecXi::Constant(T.n_vertices, -1)),
       arrival(T.n_vertices),
       winner(3 * std::size_t(T.n_faces())),
       tolerance(tolerance),
       error(VecX::Zero(tolerance > 0 ? T.n_vertices : 0)) {
+  reserve_together(lists, std::size_t(T.n_edges()));
+  lists.resize(std::size_t(T.n_edges()));
   constexpr std::size_t side_grain = 1 << 16;
   parallel_for(winner.size(), side_grain, [&](std::size_t begin, std::size_t end) {
     std::fill(winner.begin() + index(begin), winner.begin() + index(end),

@@ -31,7 +31,7 @@ void check_element(const SurfaceMesh& mesh, const SurfacePoint& p) {
                                  : counted(n, "face", "faces")) +
                          ", counted from 0",
                      "no-such-element");
-  if (vertex && mesh.vertex_faces(p.element).empty())
+  if (vertex && mesh.vertex_component()[p.element] < 0)
     throw InputError("a source lies on " + element_name(p) + ", which belongs to no face");
 }
 

@@ -111,7 +111,7 @@ TEST(ConnectionRows, AreThoseOfTheMatrix) {
   for (const SurfaceMesh& mesh : meshes) {
     Report report;
     auto T = std::make_shared<IntrinsicTriangulation>(intrinsic_triangulation(mesh, report));
-    T->seam.setZero();  // rows are asked for where there are none
+    T->seams.resize(0, 3);  // rows are asked for where there are none
     const SpMatC expected = connection_laplacian(*T, {});
     const auto rows = connection_rows(T);
     const SpMatC found = lower_triangle(*rows, {});
@@ -154,7 +154,7 @@ TEST(ConnectionRows, AreThoseOfTheHeatStepWithMassesAdded) {
   const SurfaceMesh mesh = with_a_book(20);
   Report report;
   auto T = std::make_shared<IntrinsicTriangulation>(intrinsic_triangulation(mesh, report));
-  T->seam.setZero();
+  T->seams.resize(0, 3);
   VecX M = VecX::LinSpaced(T->n_edges(), 0, 1);  // the first has none
   const double t = 0.3;
   const SpMatC expected = *heat_matrix<Complex>(

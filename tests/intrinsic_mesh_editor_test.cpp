@@ -198,7 +198,7 @@ TEST(IntrinsicMeshEditor, TrianglesAreTheSameWhereNothingIsDrawn) {
   const Retriangulation a = std::move(plain).finish(T), b = std::move(drawn).finish(T);
   EXPECT_EQ(a.T.faces.matrix(), b.T.faces.matrix());
   EXPECT_EQ(a.T.length, b.T.length);
-  EXPECT_EQ(a.T.seam, b.T.seam);
+  EXPECT_EQ(a.T.seams, b.T.seams);
   EXPECT_EQ(b.curves.nodes.size(), 2 + b.curves.segments.size() - 1);
 }
 

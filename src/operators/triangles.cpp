@@ -298,7 +298,7 @@ Operators triangle_operators(const std::shared_ptr<const IntrinsicTriangulation>
     find_pieces(*T, V);
   });
   V.ends = T->edges;
-  if (T->has_seams) {
+  if (T->has_seams()) {
     V.L_real = [T](const Task&) { return connection_laplacian_real(*T); };
   } else {
     V.L = [T](const Task& making) { return connection_laplacian(*T, making); };

@@ -32,7 +32,7 @@ bool add_step(int f, int g, const JumpCalculus& J, DualCurve& curve) {
 }  // namespace
 
 void add_chains(const std::vector<FaceChain>& chains, const JumpCalculus& J,
-                const std::vector<int>& triangle_of_face, DualCurve& curve) {
+                const FaceTriangles& triangle_of_face, DualCurve& curve) {
   for (std::size_t c = 0; c < chains.size(); ++c) {
     const FaceChain& chain = chains[c];
     const auto label = [&] {
@@ -42,7 +42,7 @@ void add_chains(const std::vector<FaceChain>& chains, const JumpCalculus& J,
       throw InputError(label() + " has " + counted(chain.faces.size(), "face", "faces") +
                        ", at least 2 are needed");
     for (const int face : chain.faces)
-      if (face < 0 || face >= std::ssize(triangle_of_face))
+      if (face < 0 || face >= triangle_of_face.size())
         throw InputError(label() + ": there is no face " + std::to_string(face) +
                              "; the mesh has " + std::to_string(triangle_of_face.size()) +
                              ", counted from 0",

@@ -10,6 +10,6 @@ namespace littoral {
 /// or -1. Throws InputError naming chain and faces: for fewer than two, for one that is not there,
 /// and where consecutive ones are not neighbours.
 void add_chains(const std::vector<FaceChain>& chains, const JumpCalculus& J,
-                const std::vector<int>& triangle_of_face, DualCurve& curve);
+                const FaceTriangles& triangle_of_face, DualCurve& curve);
 
 }  // namespace littoral

@@ -43,7 +43,7 @@ double total_length(const Polylines& lines) {
 }
 
 /// The cut mesh with one vertex for every value that meets at it.
-PolygonSoup split_by_value(const SurfaceMesh& mesh, const std::vector<int>& triangle_of_face,
+PolygonSoup split_by_value(const SurfaceMesh& mesh, const FaceTriangles& triangle_of_face,
                            const JumpCalculus& J, const WindingNumbers& numbers) {
   // Open corners belong to their face alone; others to all with the same label and value to 1e-6.
   Rows<std::int64_t, 3> key = Rows<std::int64_t, 3>::Zero(mesh.n_faces(), 3);
@@ -271,11 +271,11 @@ class WindingOnSurface {
   }
 
   /// Without cuts.
-  std::vector<int> triangles_of_input(std::vector<int> triangle_of_face) const {
+  FaceTriangles triangles_of_input(const FaceTriangles& triangle_of_face) const {
     if (!unique_.any_copies()) return triangle_of_face;
     std::vector<int> out;
     for (const int f : unique_.face_of_input) out.push_back(triangle_of_face[f]);
-    return out;
+    return FaceTriangles(std::move(out));
   }
 
   WindingDomain domain_;

@@ -21,10 +21,10 @@ using Polylines = std::vector<MatX3>;
 
 /// Regions, and the curves that do and do not bound them.
 struct WindingAnswer {
-  VecXi region;            // faces of the input: winding number of the larger part of each
-  CutMesh cut;             // the mesh on which the curves run along edges
-  WindingNumbers numbers;  // on the triangles of the cut mesh
-  std::vector<int> triangle_of_face;  // faces of the cut mesh -> triangle of `numbers`, or -1
+  VecXi region;                    // faces of the input: winding number of the larger part of each
+  CutMesh cut;                     // the mesh on which the curves run along edges
+  WindingNumbers numbers;          // on the triangles of the cut mesh
+  FaceTriangles triangle_of_face;  // faces of the cut mesh -> triangle of `numbers`, or -1
   /// The cut mesh split where values jump. Scalars at vertices: "winding", "region" and "weight":
   /// within a triangle the winding number function is sum(b winding weight) / sum(b weight), which
   /// at the ends of curves, of weight 0, takes every value (projective interpolation).

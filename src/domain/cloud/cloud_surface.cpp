@@ -249,8 +249,7 @@ NodalSurface cloud_surface(const MatX3& points, const MatX3& normals, Report& re
   auto place = std::make_shared<IntrinsicTriangulation>(intrinsic_triangulation(*S.refined, inner));
   // All triangles are counter-clockwise about the normals, also where they overlap.
   place->orientation.assign(place->orientation.size(), 1);
-  place->seam.setZero();
-  place->has_seams = false;
+  place->seams.resize(0, 3);
   double sum = 0;
   for (int e = 0; e < place->n_edges(); ++e)
     sum += (points.row(place->edges(e, 0)) / place->unit -

@@ -87,7 +87,6 @@ Retriangulation IntrinsicMeshEditor::finish(const IntrinsicTriangulation& before
   const Eigen::Index n = faces.size();
   T.along.resize(n, 3);
   T.length.resize(n, 3);
-  T.seam = Rows<std::uint8_t, 3>::Zero(n, 3);
   T.orientation.assign(faces.size(), 1);
   T.edge_use.assign(T.n_edges(), 0);
   struct Renewed {
@@ -95,7 +94,7 @@ Retriangulation IntrinsicMeshEditor::finish(const IntrinsicTriangulation& before
     bool mirrored = false;
   };
   std::vector<Renewed> renewed(edges.size());
-  T.triangle_of_face.reserve(faces.size());
+  T.triangle_of_face = FaceTriangles(T.n_faces());
   for (int f = 0; f < T.n_faces(); ++f) {
     if (f + faces_ahead < T.n_faces())
       for (int k = 0; k < 3; ++k) {
@@ -105,7 +104,6 @@ Retriangulation IntrinsicMeshEditor::finish(const IntrinsicTriangulation& before
         fetch_ahead(&T.edge_use[E]);
         fetch_ahead(T.edges.row(E).data());
       }
-    T.triangle_of_face.push_back(f);
     for (int k = 0; k < 3; ++k) {
       const int e = faces[f].e[k], E = out.mesh.side_edge(f, k);
       Renewed& edge = renewed[e];
@@ -122,8 +120,8 @@ Retriangulation IntrinsicMeshEditor::finish(const IntrinsicTriangulation& before
       } else if (T.along(f, k) != (faces[f].side_sign[k] == edge.first_side_sign
                                        ? edge.first_left
                                        : -edge.first_left)) {
-        T.seam(f, k) = 1;
-        T.has_seams = true;
+        if (!T.has_seams()) T.seams = Rows<std::uint8_t, 3>::Zero(n, 3);
+        T.seams(f, k) = 1;
       }
     }
   }

@@ -25,31 +25,35 @@ constexpr std::size_t face_grain = 16384, edge_grain = 16384;
 constexpr std::size_t fetched_ahead = 6;  // faces and edges: points are read in any order
 
 void take_faces(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& report) {
-  std::vector<int> kept;
-  kept.reserve(std::size_t(mesh.n_faces()));
-  T.triangle_of_face.assign(mesh.n_faces(), -1);
-  for (int f = 0; f < mesh.n_faces(); ++f) {
-    if (!mesh.has_distinct_corners(f)) continue;
-    T.triangle_of_face[f] = kept.size();
-    kept.push_back(f);
-  }
-  const int n = kept.size();
-  if (n == 0) throw InputError("the mesh has no face with three different vertices", "empty-input");
-  if (n < mesh.n_faces())
-    report.warn("degenerate-faces", counted(mesh.n_faces() - n, "face that repeats a vertex was",
-                                            "faces that repeat a vertex were") +
-                                        " left out");
+  const int n = mesh.n_faces();
+  std::atomic<bool> all_distinct{n > 0};
+  T.along.resize(n, 3);
+  parallel_for(std::size_t(n), face_grain, [&](std::size_t begin, std::size_t end) {
+    for (Eigen::Index f = index(begin); f < index(end); ++f) {
+      for (int k = 0; k < 3; ++k) T.along(f, k) = mesh.side_along(int(f), k) ? 1 : -1;
+      if (!mesh.has_distinct_corners(int(f))) all_distinct = false;
+    }
+  });
   T.faces = mesh.shared_faces();
   T.side_edge = mesh.shared_side_edges();
-  if (n < mesh.n_faces()) {
-    T.faces = SharedRows<int, 3>(T.faces.matrix()(kept, Eigen::all));
-    T.side_edge = SharedRows<int, 3>(T.side_edge.matrix()(kept, Eigen::all));
+  T.triangle_of_face = FaceTriangles(n);
+  if (all_distinct) return;
+
+  std::vector<int> kept, triangle_of_face(std::size_t(n), -1);
+  for (int f = 0; f < n; ++f) {
+    if (!mesh.has_distinct_corners(f)) continue;
+    triangle_of_face[f] = int_size(kept);
+    kept.push_back(f);
   }
-  T.along.resize(n, 3);
-  parallel_for(kept.size(), face_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t)
-      for (int k = 0; k < 3; ++k) T.along(index(t), k) = mesh.side_along(kept[t], k) ? 1 : -1;
-  });
+  if (kept.empty())
+    throw InputError("the mesh has no face with three different vertices", "empty-input");
+  report.warn("degenerate-faces", counted(n - int_size(kept), "face that repeats a vertex was",
+                                          "faces that repeat a vertex were") +
+                                      " left out");
+  T.triangle_of_face = FaceTriangles(std::move(triangle_of_face));
+  T.faces = SharedRows<int, 3>(T.faces.matrix()(kept, Eigen::all));
+  T.side_edge = SharedRows<int, 3>(T.side_edge.matrix()(kept, Eigen::all));
+  T.along = Rows<std::int8_t, 3>(T.along(kept, Eigen::all));
 }
 
 /// Lowest and highest coordinates of the triangles.
@@ -142,12 +146,12 @@ Vec3 into_face(const SurfaceMesh& mesh, const IntrinsicTriangulation& T, int f, 
 /// own frame says otherwise. Two faces lie on opposite sides; where more meet, those that leave the
 /// edge in the direction of the first (to 90 degrees) lie on its side.
 void mark_seams(const SurfaceMesh& mesh, IntrinsicTriangulation& T, const EdgeSides& sides) {
-  T.seam = Rows<std::uint8_t, 3>::Zero(T.n_faces(), 3);
+  const auto n = std::size_t(T.n_edges());
+  std::vector<std::vector<TriangleSide>> found((n + edge_grain - 1) / edge_grain);
   auto left = [&](const TriangleSide& s) {
     return T.orientation[s.face()] * T.along(s.face(), s.k());
   };
-  std::atomic<bool> any{false};
-  parallel_for(std::size_t(T.n_edges()), edge_grain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(n, edge_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
       const auto at = sides.at(int(e));
       for (std::size_t i = 1; i < at.size(); ++i) {
@@ -157,13 +161,15 @@ void mark_seams(const SurfaceMesh& mesh, IntrinsicTriangulation& T, const EdgeSi
           same_side = first.dot(into_face(mesh, T, at[i].face(), at[i].k())) > 1e-9;
         }
         const int wanted = same_side ? left(at[0]) : -left(at[0]);
-        if (left(at[i]) == wanted) continue;
-        T.seam(at[i].face(), at[i].k()) = 1;
-        any = true;
+        if (left(at[i]) != wanted) found[begin / edge_grain].push_back(at[i]);
       }
     }
   });
-  T.has_seams = any;
+  for (const auto& sides_found : found)
+    for (const TriangleSide& side : sides_found) {
+      if (!T.has_seams()) T.seams = Rows<std::uint8_t, 3>::Zero(T.n_faces(), 3);
+      T.seams(side.face(), side.k()) = 1;
+    }
 }
 
 void find_components(const SurfaceMesh& mesh, IntrinsicTriangulation& T) {

@@ -6,6 +6,7 @@
 
 #include "base/shared_rows.h"
 #include "base/triangle.h"
+#include "domain/intrinsic/face_triangles.h"
 #include "domain/mesh/surface_mesh.h"
 #include "littoral/report.h"
 #include "littoral/types.h"
@@ -20,7 +21,7 @@ namespace littoral {
 /// orientable patch, by majority of area, so that a few flipped faces do not matter; on a patch
 /// that is not orientable they are the given ones. An edge's frame has its real axis along the edge
 /// and its imaginary axis to the left as its first face sees it. Where a face's frame disagrees
-/// with its edge's about that side (`seam`), coordinates change by conjugation as well as rotation.
+/// with its edge's about that side (a seam), coordinates change by conjugation as well as rotation.
 struct IntrinsicTriangulation {
   double unit = 1;  // [length] of one unit in the input's coordinates
   int n_vertices = 0;
@@ -29,17 +30,18 @@ struct IntrinsicTriangulation {
   Rows<std::int8_t, 3> along{0, 3};      // triangles x 3, +1 if side k runs along its edge, else -1
   MatX3 length{0, 3};                    // triangles x 3, side lengths, strictly a triangle
   std::vector<std::int8_t> orientation;  // triangles, +1 or -1
-  Rows<std::uint8_t, 3> seam{0, 3};      // triangles x 3, frames differ by a reflection
-  bool has_seams = false;
-  SharedRows<int, 2> edges;            // edges x 2, tail and head
-  std::vector<std::uint8_t> edge_use;  // edges: number of triangles (255 = that many or more)
-  double mean_edge_length = 0;         // over edges with a triangle, units
-  std::vector<int> component;          // per vertex; -1 without a triangle
+  Rows<std::uint8_t, 3> seams{0, 3};     // triangles x 3, frames differ by a reflection; or none
+  SharedRows<int, 2> edges;              // edges x 2, tail and head
+  std::vector<std::uint8_t> edge_use;    // edges: number of triangles (255 = that many or more)
+  double mean_edge_length = 0;           // over edges with a triangle, units
+  std::vector<int> component;            // per vertex; -1 without a triangle
   int n_components = 0;
-  std::vector<int> triangle_of_face;  // mesh face -> triangle, -1 where a vertex is repeated
+  FaceTriangles triangle_of_face;  // of the mesh; -1 where a vertex is repeated
 
   int n_faces() const { return static_cast<int>(faces.rows()); }
   int n_edges() const { return static_cast<int>(edges.rows()); }
+  bool has_seams() const { return seams.rows() > 0; }
+  bool seam(Eigen::Index f, int k) const { return has_seams() && seams(f, k) != 0; }
 
   /// Layout of a face in its own frame.
   TriangleShape shape(int f) const {

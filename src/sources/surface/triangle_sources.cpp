@@ -45,7 +45,7 @@ std::vector<TriangleSources::Segment> segments_of(const SurfaceMesh& mesh,
   // Do two triangles disagree about the sides of the edge?
   auto seam = [&](int t) {
     for (int k = 0; k < 3 && t >= 0; ++k)
-      if (T.side_edge(t, k) == piece.edge) return T.seam(t, k) != 0;
+      if (T.side_edge(t, k) == piece.edge) return T.seam(t, k);
     return false;
   };
   const SurfacePoint p = on_edge(piece.a), q = on_edge(piece.b);

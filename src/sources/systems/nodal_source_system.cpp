@@ -16,7 +16,7 @@ class NodeDofs : public VectorDofs {
  public:
   explicit NodeDofs(const NodalSurface& S)
       : S_(S), mesh_(*S.refined), unit_(S.place->unit), face_of_(S.place->n_faces()) {
-    for (std::size_t f = 0; f < S.place->triangle_of_face.size(); ++f)
+    for (int f = 0; f < S.place->triangle_of_face.size(); ++f)
       if (const int t = S.place->triangle_of_face[f]; t >= 0) face_of_[t] = f;
   }
 

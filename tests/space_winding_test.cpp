@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "api/space/sdf.h"
+#include "base/parallel.h"
 #include "littoral/error.h"
 #include "space_helpers.h"
 #include "spatial/dipole_moments.h"
@@ -206,6 +207,96 @@ TEST(WindingKernels, NarrowAnglesAreThoseInDoublePrecisionOrSaySo) {
   EXPECT_GT(sure, tried / 3);
   float sum = 0;
   EXPECT_FALSE(winding_kernels().narrow_angles(lanes.narrow, lanes.corner(2, 1).data(), sum));
+}
+
+TEST(WindingKernels, FieldsAtEightPointsAreThoseAtOneAfterTheOther) {
+  GroupCluster cluster{0.3f, -0.2f, 0.1f, 0.25f, -1, {}};
+  ClusterLanes lanes{};
+  lanes.x[0] = cluster.x, lanes.y[0] = cluster.y, lanes.z[0] = cluster.z;
+  lanes.radius[0] = cluster.radius;
+  for (int l = 1; l < winding_lanes; ++l) lanes.x[l] = 1e9f;
+  const MatX3 numbers = test::random_points(12, 1);
+  for (int k = 0; k < dipole_coefficients; ++k)
+    lanes.moments[k][0] = cluster.moments[k] = static_cast<float>(numbers(k / 3, k % 3));
+  MatX3 at = test::random_points(winding_lanes, 1);  // directions
+  PointLanes everywhere{}, some{};
+  for (int l = 0; l < winding_lanes; ++l) {
+    at.row(l) = (0.4 + 0.1 * l) * at.row(l).normalized() +
+                Eigen::RowVector3d(cluster.x, cluster.y, cluster.z);
+    everywhere.x[l] = some.x[l] = static_cast<float>(at(l, 0));
+    everywhere.y[l] = some.y[l] = static_cast<float>(at(l, 1));
+    everywhere.z[l] = some.z[l] = static_cast<float>(at(l, 2));
+    everywhere.sum[l] = some.sum[l] = 0.5f;
+  }
+  const float share = 1 / (2.6f * 2.6f);
+  winding_kernels().add_field(cluster, everywhere);
+  const unsigned asked = 0b10110111u;
+  const unsigned near = winding_kernels().add_where_far(cluster, share, asked, some);
+  EXPECT_EQ(near, 0b111u);
+  for (int l = 0; l < winding_lanes; ++l) {
+    const std::array<float, 3> q{some.x[l], some.y[l], some.z[l]};
+    unsigned is_near = 0;
+    const float alone = winding_kernels().far(lanes, q.data(), 1e9f, is_near);
+    EXPECT_NEAR(everywhere.sum[l], 0.5 + double(alone), 1e-5 * (1 + std::abs(alone))) << l;
+    (void)winding_kernels().far(lanes, q.data(), share, is_near);
+    const bool is_asked = (asked >> l & 1u) != 0, far = is_asked && (is_near & 1u) == 0;
+    EXPECT_EQ((near >> l & 1u) != 0, is_asked && !far) << l;
+    EXPECT_EQ(some.sum[l], far ? everywhere.sum[l] : 0.5f) << l;
+  }
+}
+
+// Triangles that close nothing; queries among them, around them and far from them.
+TEST(WindingNumber, TogetherIsTheSumWithinItsAccuracy) {
+  const int n = 3000;
+  const MatX3 centres = test::random_points(n, 1), sides = 0.04 * test::random_points(3 * n, 1);
+  MatX3 points(3 * n, 3);
+  MatX3i faces(n, 3);
+  for (int f = 0; f < n; ++f)
+    for (int k = 0; k < 3; ++k) {
+      points.row(3 * f + k) = centres.row(f) + sides.row(3 * f + k);
+      faces(f, k) = 3 * f + k;
+    }
+  const WindingNumber winding(points, faces, WindingNumber::Queries::together);
+  ASSERT_FALSE(winding.exact());
+  const MatX3 places = test::random_points(40000, 1);
+  MatX3 queries(40003, 3);
+  queries << 0.05 * places.topRows(20000), 1.3 * places.bottomRows(20000), 9, 0, 0, 0, 1e9, 0,
+      1e300, 0, 0;
+  set_thread_count(1);
+  const VecX together = winding.at(queries, Task());
+  double sum = 0, largest = 0;
+  int n_looked_at = 0;
+  for (Eigen::Index i = 0; i < queries.rows(); i += i < 39000 ? 37 : 1) {
+    const double error = std::abs(together[i] - winding(queries.row(i), infinity));
+    sum += error;
+    largest = std::max(largest, error);
+    ++n_looked_at;
+  }
+  EXPECT_LE(largest, 2e-4);
+  EXPECT_LE(sum / n_looked_at, 3e-5);
+  EXPECT_NEAR(together[40000], winding(queries.row(40000)), 1e-12);
+  set_thread_count(4);
+  EXPECT_EQ(winding.at(queries, Task()), together);
+  set_thread_count(0);
+  // A few, and none.
+  const VecX few = winding.at(queries.topRows(3), Task());
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(few[i], winding(queries.row(i), infinity), 2e-4);
+  EXPECT_EQ(winding.at(MatX3(0, 3), Task()).size(), 0);
+  const CancelToken stop;
+  stop.cancel();
+  EXPECT_THROW(winding.at(queries, Task(stop)), Cancelled);
+}
+
+TEST(WindingNumber, TogetherIsExactWhereItIsExactAlone) {
+  const PolygonSoup sphere = test::octasphere_soup(3);
+  MatX3i faces(sphere.n_faces(), 3);
+  for (int f = 0; f < sphere.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k) faces(f, k) = sphere.face(f)[k];
+  const WindingNumber winding(sphere.points, faces, WindingNumber::Queries::together);
+  ASSERT_TRUE(winding.exact());
+  const MatX3 queries = test::random_points(500, 1.5);
+  const VecX together = winding.at(queries, Task());
+  for (int i = 0; i < 500; ++i) EXPECT_EQ(together[i], winding(queries.row(i))) << i;
 }
 
 TEST(WindingNumber, WithinATriangleOfASoupHasTheValueOfTheSum) {

@@ -6,8 +6,8 @@
 //        in the box)
 // Queries are drawn from the box and a tenth of it around, and on faces, moved by a normal deviate
 // of 1 % of the mesh's size along each axis. Processor time of one thread, points in order, the
-// least of three; errors of N of them beside the sum of all angles. To compare two versions take
-// turns.
+// least of three, one by one and together; errors of N of them beside the sum of all angles. To
+// compare two versions take turns.
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "base/parallel.h"
 #include "io/read.h"
 #include "spatial/morton_order.h"
 #include "spatial/triangulate.h"
@@ -93,35 +94,43 @@ void measure(const WindingNumber& winding, const MatX3& unordered, int checked, 
   const std::vector<int> order = morton_order(unordered);
   MatX3 queries(unordered.rows(), 3);
   for (Eigen::Index i = 0; i < queries.rows(); ++i) queries.row(i) = unordered.row(order[i]);
-  VecX value(queries.rows()), side(queries.rows());
+  VecX value(queries.rows()), side(queries.rows()), together;
   const double n = double(queries.rows());
-  double took = std::numeric_limits<double>::infinity(), took_side = took;
+  double took = std::numeric_limits<double>::infinity(), took_side = took, took_together = took;
   for (int round = 0; round < 3; ++round) {
     const double begin = seconds();
     for (Eigen::Index i = 0; i < queries.rows(); ++i) value[i] = winding(queries.row(i));
     const double middle = seconds();
     for (Eigen::Index i = 0; i < queries.rows(); ++i)
       side[i] = winding(queries.row(i), WindingNumber::sign_accuracy);
+    const double end = seconds();
+    together = winding.at(queries, Task());
     took = std::min(took, middle - begin);
-    took_side = std::min(took_side, seconds() - middle);
+    took_side = std::min(took_side, end - middle);
+    took_together = std::min(took_together, seconds() - end);
   }
   std::vector<int> some(queries.rows());
   for (std::size_t i = 0; i < some.size(); ++i) some[i] = static_cast<int>(i);
   std::shuffle(some.begin(), some.end(), Draw().generator());
   some.resize(std::min<std::size_t>(some.size(), checked));
   std::vector<double> error;
-  double sum = 0, worst_side = 0;
+  double sum = 0, worst_side = 0, sum_together = 0, worst_together = 0;
   for (int i : some) {
     const double exact = winding(queries.row(i), std::numeric_limits<double>::infinity());
     error.push_back(std::abs(value[i] - exact));
     sum += error.back();
+    const double off = std::abs(together[i] - exact);
+    sum_together += off;
+    worst_together = std::max(worst_together, off);
     worst_side = std::max(worst_side, std::abs(side[i] - exact));
   }
   std::sort(error.begin(), error.end());
-  std::printf("| %s | %.3f | %.2f | %.2f | %.1e | %.1e | %.1e | %.1e |%s\n", name.c_str(), building,
-              1e6 * took / n, 1e6 * took_side / n, sum / double(error.size()),
+  std::printf("| %s | %.3f | %.2f | %.2f | %.1e | %.1e | %.1e | %.1e | %.2f | %.1e | %.1e |%s\n",
+              name.c_str(), building, 1e6 * took / n, 1e6 * took_side / n,
+              sum / double(error.size()),
               error[static_cast<std::size_t>(0.999 * double(error.size()))], error.back(),
-              worst_side, winding.exact() ? " exact" : "");
+              worst_side, 1e6 * took_together / n, sum_together / double(error.size()),
+              worst_together, winding.exact() ? " exact" : "");
   std::fflush(stdout);
 }
 
@@ -131,7 +140,7 @@ void run(const std::string& word, int count, int checked) {
   const PolygonSoup read = triangulate(io::read_surface(word.substr(colon + 1)));
   const Soup soup = damaged(word.substr(0, colon), {read.points, triangles_of(read)});
   const double begin = seconds();
-  const WindingNumber winding(soup.points, soup.faces);
+  const WindingNumber winding(soup.points, soup.faces, WindingNumber::Queries::together);
   const double building = seconds() - begin;
   Draw draw;
   const Vec3 low = soup.points.colwise().minCoeff(), high = soup.points.colwise().maxCoeff();
@@ -162,7 +171,9 @@ int main(int count, char** words) {
   int queries = 100000, checked = 1500;
   std::printf(
       "| soup, faces, queries | building, s | us | side, us | mean error | 99.9 %% | largest "
-      "| of sides |\n|---|---|---|---|---|---|---|---|\n");
+      "| of sides | together, us | mean error | largest |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|\n");
+  littoral::set_thread_count(1);
   for (int i = 1; i < count; ++i) {
     const std::string word = words[i];
     if (word == "--queries" && i + 1 < count)

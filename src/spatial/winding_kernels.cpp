@@ -25,47 +25,103 @@ template <class Lanes>
 // The expansion of dipole_moments.h at (X, Y, Z) = radius r / |r|^2, where powers of the distance
 // are those of its degrees: t^l q_lm(u_z) C_m is a polynomial of X, Y, Z and T = radius^2 / |r|^2.
 // It is summed by orders m, whose polynomials in Z and T serve both of its coefficients.
+/// moment(k): the k-th of them.
+template <class Moment>
+[[gnu::always_inline]] inline float harmonic_sum(float X, float Y, float Z, float T,
+                                                 const Moment& moment) {
+  static_assert(dipole_degree == 5);
+  const float c2 = X * X - Y * Y, s2 = 2 * X * Y;
+  const float c3 = X * c2 - Y * s2, s3 = X * s2 + Y * c2;
+  const float c4 = c2 * c2 - s2 * s2, s4 = 2 * c2 * s2;
+  const float c5 = c2 * c3 - s2 * s3, s5 = c2 * s3 + s2 * c3;
+  const float ZZ = Z * Z, TT = T * T;
+  const float zero =
+      (moment(3) * (ZZ - 1.f / 3 * T) + moment(15) * (ZZ * (ZZ - 6.f / 7 * T) + 3.f / 35 * TT)) +
+      Z * (moment(0) + moment(8) * (ZZ - 3.f / 5 * T) +
+           moment(24) * (ZZ * (ZZ - 10.f / 9 * T) + 5.f / 21 * TT));
+  const float q31 = ZZ - 1.f / 5 * T, q41 = ZZ - 3.f / 7 * T;
+  const float q51 = ZZ * (ZZ - 2.f / 3 * T) + 1.f / 21 * TT;
+  const float A1 =
+      (moment(1) + moment(9) * q31 + moment(25) * q51) + Z * (moment(4) + moment(16) * q41);
+  const float B1 =
+      (moment(2) + moment(10) * q31 + moment(26) * q51) + Z * (moment(5) + moment(17) * q41);
+  const float q42 = ZZ - 1.f / 7 * T, q52 = ZZ - 1.f / 3 * T;
+  const float A2 = (moment(6) + moment(18) * q42) + Z * (moment(11) + moment(27) * q52);
+  const float B2 = (moment(7) + moment(19) * q42) + Z * (moment(12) + moment(28) * q52);
+  const float q53 = ZZ - 1.f / 9 * T;
+  const float A3 = (moment(13) + moment(29) * q53) + Z * moment(20);
+  const float B3 = (moment(14) + moment(30) * q53) + Z * moment(21);
+  const float A4 = moment(22) + Z * moment(31), B4 = moment(23) + Z * moment(32);
+  return ((zero + ((A1 * X + B1 * Y) + (A2 * c2 + B2 * s2))) +
+          ((A3 * c3 + B3 * s3) + (A4 * c4 + B4 * s4)) + (moment(33) * c5 + moment(34) * s5));
+}
+
 [[gnu::always_inline]] inline float far_sum(const ClusterLanes& c, const float* q, float share,
                                             unsigned& near) {
-  static_assert(dipole_degree == 5);
   alignas(32) std::array<float, winding_lanes> value;
   alignas(32) std::array<std::int32_t, winding_lanes> is_far;
   const float qx = q[0], qy = q[1], qz = q[2];
-  const auto& M = c.moments;
   for (int l = 0; l < winding_lanes; ++l) {
     const float rx = c.x[l] - qx, ry = c.y[l] - qy, rz = c.z[l] - qz;
     const float i2 = 1 / (rx * rx + ry * ry + rz * rz), scale = c.radius[l] * i2;
-    const float X = rx * scale, Y = ry * scale, Z = rz * scale, T = c.radius[l] * scale;
+    const float T = c.radius[l] * scale;
     is_far[l] = std::bit_cast<std::int32_t>(T - share) >> 31;  // the sign
-    const float c2 = X * X - Y * Y, s2 = 2 * X * Y;
-    const float c3 = X * c2 - Y * s2, s3 = X * s2 + Y * c2;
-    const float c4 = c2 * c2 - s2 * s2, s4 = 2 * c2 * s2;
-    const float c5 = c2 * c3 - s2 * s3, s5 = c2 * s3 + s2 * c3;
-    const float ZZ = Z * Z, TT = T * T;
-    const float zero =
-        (M[3][l] * (ZZ - 1.f / 3 * T) + M[15][l] * (ZZ * (ZZ - 6.f / 7 * T) + 3.f / 35 * TT)) +
-        Z * (M[0][l] + M[8][l] * (ZZ - 3.f / 5 * T) +
-             M[24][l] * (ZZ * (ZZ - 10.f / 9 * T) + 5.f / 21 * TT));
-    const float q31 = ZZ - 1.f / 5 * T, q41 = ZZ - 3.f / 7 * T;
-    const float q51 = ZZ * (ZZ - 2.f / 3 * T) + 1.f / 21 * TT;
-    const float A1 = (M[1][l] + M[9][l] * q31 + M[25][l] * q51) + Z * (M[4][l] + M[16][l] * q41);
-    const float B1 = (M[2][l] + M[10][l] * q31 + M[26][l] * q51) + Z * (M[5][l] + M[17][l] * q41);
-    const float q42 = ZZ - 1.f / 7 * T, q52 = ZZ - 1.f / 3 * T;
-    const float A2 = (M[6][l] + M[18][l] * q42) + Z * (M[11][l] + M[27][l] * q52);
-    const float B2 = (M[7][l] + M[19][l] * q42) + Z * (M[12][l] + M[28][l] * q52);
-    const float q53 = ZZ - 1.f / 9 * T;
-    const float A3 = (M[13][l] + M[29][l] * q53) + Z * M[20][l];
-    const float B3 = (M[14][l] + M[30][l] * q53) + Z * M[21][l];
-    const float A4 = M[22][l] + Z * M[31][l], B4 = M[23][l] + Z * M[32][l];
-    const float v = std::sqrt(i2) *
-                    ((zero + ((A1 * X + B1 * Y) + (A2 * c2 + B2 * s2))) +
-                     ((A3 * c3 + B3 * s3) + (A4 * c4 + B4 * s4)) + (M[33][l] * c5 + M[34][l] * s5));
+    const float v = std::sqrt(i2) * harmonic_sum(rx * scale, ry * scale, rz * scale, T,
+                                                 [&](int k) { return c.moments[k][l]; });
     value[l] = std::bit_cast<float>(std::bit_cast<std::int32_t>(v) & is_far[l]);
   }
   unsigned bits = 0;
   for (int l = 0; l < winding_lanes; ++l) bits |= (is_far[l] == 0 ? 1u : 0u) << l;
   near = bits;
   return sum_of(value);
+}
+
+[[gnu::always_inline]] inline void field_at(const GroupCluster& c, const PointLanes& q,
+                                            std::array<float, winding_lanes>& value) {
+  const float x = c.x, y = c.y, z = c.z, radius = c.radius;
+  for (int l = 0; l < winding_lanes; ++l) {
+    const float rx = x - q.x[l], ry = y - q.y[l], rz = z - q.z[l];
+    const float i2 = 1 / (rx * rx + ry * ry + rz * rz), scale = radius * i2;
+    value[l] = std::sqrt(i2) * harmonic_sum(rx * scale, ry * scale, rz * scale, radius * scale,
+                                            [&](int k) { return c.moments[k]; });
+  }
+}
+
+[[gnu::always_inline]] inline void field_sum(const GroupCluster& c, PointLanes& q) {
+  alignas(32) std::array<float, winding_lanes> value;
+  field_at(c, q, value);
+  for (int l = 0; l < winding_lanes; ++l) q.sum[l] += value[l];
+}
+
+[[gnu::always_inline]] inline unsigned far_field_sum(const GroupCluster& c, float share,
+                                                     unsigned of, PointLanes& q) {
+  alignas(32) std::array<std::int32_t, winding_lanes> is_far;
+  const float x = c.x, y = c.y, z = c.z, reach = c.radius * c.radius;
+  for (int l = 0; l < winding_lanes; ++l) {
+    const float rx = x - q.x[l], ry = y - q.y[l], rz = z - q.z[l];
+    is_far[l] = std::bit_cast<std::int32_t>(reach - share * (rx * rx + ry * ry + rz * rz)) >> 31;
+  }
+  unsigned far = 0;
+  for (int l = 0; l < winding_lanes; ++l) far |= (is_far[l] != 0 ? 1u : 0u) << l;
+  far &= of;
+  if (far == 0) return of;
+  alignas(32) std::array<float, winding_lanes> value;
+  field_at(c, q, value);
+  for (int l = 0; l < winding_lanes; ++l) {
+    const std::int32_t counts = -static_cast<std::int32_t>(far >> l & 1u);
+    q.sum[l] += std::bit_cast<float>(std::bit_cast<std::int32_t>(value[l]) & counts);
+  }
+  return of & ~far;
+}
+
+[[gnu::always_inline]] inline void local_sum(const LocalField& field, PointLanes& q) {
+  alignas(32) std::array<float, winding_lanes> value;
+  for (int l = 0; l < winding_lanes; ++l) {
+    const float x = q.x[l], y = q.y[l], z = q.z[l];
+    value[l] = field.constant + harmonic_sum(x, y, z, x * x + y * y + z * z,
+                                             [&](int k) { return field.moments[k]; });
+  }
+  for (int l = 0; l < winding_lanes; ++l) q.sum[l] += value[l];
 }
 
 /// arg(x + i y), off by 2e-8 and rounding (Abramowitz and Stegun 4.4.49).
@@ -154,6 +210,11 @@ template <class Lanes>
 float far_plain(const ClusterLanes& c, const float* q, float share, unsigned& near) {
   return far_sum(c, q, share, near);
 }
+void field_plain(const GroupCluster& c, PointLanes& q) { field_sum(c, q); }
+unsigned far_field_plain(const GroupCluster& c, float share, unsigned of, PointLanes& q) {
+  return far_field_sum(c, share, of, q);
+}
+void local_plain(const LocalField& field, PointLanes& q) { local_sum(field, q); }
 bool narrow_plain(const NarrowTriangleLanes& t, const double* q, float& sum) {
   return narrow_sum(t, q, sum);
 }
@@ -167,6 +228,14 @@ double dipoles_plain(const DipoleLanes& d, const double* q) { return dipole_sum(
 [[gnu::target("avx2")]] float far_avx2(const ClusterLanes& c, const float* q, float share,
                                        unsigned& near) {
   return far_sum(c, q, share, near);
+}
+[[gnu::target("avx2")]] void field_avx2(const GroupCluster& c, PointLanes& q) { field_sum(c, q); }
+[[gnu::target("avx2")]] unsigned far_field_avx2(const GroupCluster& c, float share, unsigned of,
+                                                PointLanes& q) {
+  return far_field_sum(c, share, of, q);
+}
+[[gnu::target("avx2")]] void local_avx2(const LocalField& field, PointLanes& q) {
+  local_sum(field, q);
 }
 [[gnu::target("avx2")]] bool narrow_avx2(const NarrowTriangleLanes& t, const double* q,
                                          float& sum) {
@@ -184,8 +253,10 @@ double dipoles_plain(const DipoleLanes& d, const double* q) { return dipole_sum(
 
 const WindingKernels& winding_kernels() {
   static const WindingKernels best =
-      LITTORAL_FASTEST((WindingKernels{&far_plain, &narrow_plain, &angles_plain, &dipoles_plain}),
-                       (WindingKernels{&far_avx2, &narrow_avx2, &angles_avx2, &dipoles_avx2}));
+      LITTORAL_FASTEST((WindingKernels{&far_plain, &field_plain, &local_plain, &far_field_plain,
+                                       &narrow_plain, &angles_plain, &dipoles_plain}),
+                       (WindingKernels{&far_avx2, &field_avx2, &local_avx2, &far_field_avx2,
+                                       &narrow_avx2, &angles_avx2, &dipoles_avx2}));
   return best;
 }
 

@@ -12,7 +12,6 @@ namespace littoral {
 
 namespace {
 
-constexpr double four_pi = 4 * M_PI;
 constexpr int leaf_size = winding_lanes;
 constexpr int few_boundary_edges = 1500;    // beyond, the sum over clusters is mostly faster
 constexpr int most_boundary_edges = 20000;  // beyond, surely
@@ -62,7 +61,7 @@ void WindingNumber::set_frame(const MatX3& points) {
   if (longest > 0 && std::isfinite(longest)) unit_ = std::exp2(std::ceil(std::log2(longest)));
 }
 
-WindingNumber::WindingNumber(const MatX3& points, const MatX3i& faces) {
+WindingNumber::WindingNumber(const MatX3& points, const MatX3i& faces, Queries queries) {
   std::vector<char> nothing;
   const auto chain = boundary_chain(points, faces, &nothing);
   std::vector<Triangle> triangles;
@@ -92,13 +91,14 @@ WindingNumber::WindingNumber(const MatX3& points, const MatX3i& faces) {
     items.areas.emplace_back((t[1] - t[0]).cross(t[2] - t[0]) / 2);
   }
   if (int_size(chain) > few_boundary_edges) {
-    build(items);
+    build(items, queries);
     if (int_size(chain) > most_boundary_edges ||
         nanoseconds_of_clusters((corners.colwise().maxCoeff().transpose() - origin_) / unit_) <
             ns_an_edge * int_size(chain))
       return;
     root_ = none;
     nodes_ = {};
+    clusters_ = {};
     triangle_leaves_ = {};
     narrow_leaves_ = {};
     total_.setZero();
@@ -113,7 +113,8 @@ WindingNumber::WindingNumber(const MatX3& points, const MatX3i& faces) {
   crossing_ = CrossingNumber(items.tree, items.triangles, boundary);
 }
 
-WindingNumber::WindingNumber(const MatX3& points, const MatX3& normals, const VecX& areas) {
+WindingNumber::WindingNumber(const MatX3& points, const MatX3& normals, const VecX& areas,
+                             Queries queries) {
   set_frame(points);
   Items items;
   items.tree = cluster(points, leaf_size);
@@ -121,10 +122,10 @@ WindingNumber::WindingNumber(const MatX3& points, const MatX3& normals, const Ve
     items.centres.emplace_back((points.row(i).transpose() - origin_) / unit_);
     items.areas.emplace_back(areas[i] / unit_ / unit_ * normals.row(i));
   }
-  build(items);
+  build(items, queries);
 }
 
-void WindingNumber::build(const Items& items) {
+void WindingNumber::build(const Items& items, Queries queries) {
   if (items.centres.empty()) return;
   for (const Vec3& a : items.areas) total_ += a;
   const auto& clusters = items.tree.clusters;
@@ -160,6 +161,17 @@ void WindingNumber::build(const Items& items) {
         e.moments.add(items.centres[i] - e.centre, items.areas[i]);
       else
         add_triangle(e.moments, items.triangles[i], items.areas[i], e.centre);
+  }
+  if (queries == Queries::together) {
+    clusters_.resize(clusters.size());
+    for (std::size_t at = 0; at < clusters.size(); ++at) {
+      const Expansion& e = expansions[at];
+      const auto f = [](double x) { return static_cast<float>(x); };
+      GroupCluster& to = clusters_[at];
+      to = {f(e.centre[0]), f(e.centre[1]), f(e.centre[2]), f(e.radius), clusters[at].child, {}};
+      const auto moments = e.moments.coefficients(e.radius);
+      for (std::size_t k = 0; k < moments.size(); ++k) to.moments[k] = f(moments[k] / e.radius);
+    }
   }
   root_ = add_node(items, expansions, 0);
 }
@@ -218,6 +230,7 @@ int WindingNumber::add_node(const Items& items, const std::vector<Expansion>& ex
     const Cluster& cluster = clusters[members[l]];
     node.child[l] = cluster.child < 0 ? -1 - add_leaf(items, cluster, e)
                                       : add_node(items, expansions, members[l]);
+    if (cluster.child < 0 && !clusters_.empty()) clusters_[members[l]].child = node.child[l];
   }
   nodes_[at] = node;
   return at;
@@ -300,7 +313,7 @@ double winding_number_brute_force(const MatX3& points, const MatX3i& faces, cons
     sum += 2 * std::atan2(t[0].dot(t[1].cross(t[2])),
                           A * B * C + t[0].dot(t[1]) * C + t[1].dot(t[2]) * A + t[2].dot(t[0]) * B);
   }
-  return static_cast<double>(sum) / four_pi;
+  return static_cast<double>(sum) / (4 * M_PI);
 }
 
 }  // namespace littoral

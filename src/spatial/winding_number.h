@@ -2,9 +2,11 @@
 // Generalized winding number of triangles or oriented points in space.
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <vector>
 
+#include "base/task.h"
 #include "littoral/types.h"
 #include "spatial/cluster_tree.h"
 #include "spatial/crossing_number.h"
@@ -25,21 +27,32 @@ class WindingNumber {
   /// For comparisons with 1/2, to which errors of 3e-3 do not matter.
   static constexpr double sign_accuracy = 1.7;
 
+  /// Whether `at` is asked for, which takes 40 bytes more for every triangle or point.
+  enum class Queries { single, together };
+
   /// points: n x 3; faces: m x 3, rows index points, no order or connection needed. Faces with a
   /// corner that is not finite count as nothing.
-  WindingNumber(const MatX3& points, const MatX3i& faces);
+  WindingNumber(const MatX3& points, const MatX3i& faces, Queries queries = Queries::single);
 
   /// points, normals: n x 3, normals of unit length; areas: n. All finite.
-  WindingNumber(const MatX3& points, const MatX3& normals, const VecX& areas);
+  WindingNumber(const MatX3& points, const MatX3& normals, const VecX& areas,
+                Queries queries = Queries::single);
 
   /// `accuracy` is the distance from which a cluster is expanded, in radii of the cluster: 2.6
   /// keeps the error near 1e-4, 1.7 below 3e-3; infinity sums exactly.
   double operator()(const Vec3& query, double accuracy = usual_accuracy) const;
 
+  /// The same at points (queries x 3), to the usual accuracy, sooner for `Queries::together`
+  /// (winding_cells.cpp): then what one point is given depends on how many are near it, within that
+  /// accuracy. Throws Cancelled.
+  VecX at(const MatX3& queries, const Task& task) const;
+
   /// Whether values are exact whatever the accuracy.
   bool exact() const { return exact_; }
 
  private:
+  static constexpr double four_pi = 4 * M_PI;
+
   // A cluster from far away.
   struct Expansion {
     Vec3 low, high;  // box of its items
@@ -64,7 +77,7 @@ class WindingNumber {
   };
 
   void set_frame(const MatX3& points);
-  void build(const Items& items);
+  void build(const Items& items, Queries queries);
   int add_leaf(const Items& items, const Cluster& cluster, const Expansion& expansion);
   int add_node(const Items& items, const std::vector<Expansion>& expansions, int root);
   double leaf_sum(int leaf, const double* q, bool exactly) const;
@@ -82,6 +95,8 @@ class WindingNumber {
   CrossingNumber crossing_;  // one of the two: this, or the tree below
   int root_ = none;
   std::vector<Node> nodes_;
+  friend class WindingCells;
+  std::vector<GroupCluster> clusters_;  // the tree of two children each, of which nodes are made
   std::vector<TriangleLanes> triangle_leaves_;  // one of the two
   std::vector<NarrowTriangleLanes> narrow_leaves_;
   std::vector<DipoleLanes> dipole_leaves_;

@@ -126,20 +126,18 @@ WindingOfInput::WindingOfInput(const PolygonSoup& input, const Orientation& orie
   const SpaceInput local = make_input({input, orientation.flip, orientation.estimate_normals},
                                       frame_, infinity, task, report);
   const OrientedPoints& s = local.samples;
+  constexpr auto together = WindingNumber::Queries::together;
   if (local.is_cloud()) {
-    winding_ = std::make_unique<const WindingNumber>(s.points, s.normals, s.areas);
+    winding_ = std::make_unique<const WindingNumber>(s.points, s.normals, s.areas, together);
     return;
   }
   points_ = local.surface.points;
   triangles_ = local.triangles();
-  winding_ = std::make_unique<const WindingNumber>(points_, triangles_);
+  winding_ = std::make_unique<const WindingNumber>(points_, triangles_, together);
 }
 
 VecX WindingOfInput::at(const MatX3& queries, const Task& task) const {
-  const MatX3 local = frame_.local(queries);
-  VecX values(queries.rows());
-  visit_queries(local, task, [&](int i) { values[i] = (*winding_)(local.row(i)); });
-  return values;
+  return winding_->at(frame_.local(queries), task);
 }
 
 VecX WindingOfInput::confidence(const MatX3& queries, const Task& task) const {

@@ -25,7 +25,7 @@ template <class Lanes>
 // The expansion of dipole_moments.h at (X, Y, Z) = radius r / |r|^2, where powers of the distance
 // are those of its degrees: t^l q_lm(u_z) C_m is a polynomial of X, Y, Z and T = radius^2 / |r|^2.
 // It is summed by orders m, whose polynomials in Z and T serve both of its coefficients.
-/// moment(k): the k-th of them.
+// moment(k) is the k-th number of an expansion, here or of a cell (LocalField).
 template <class Moment>
 [[gnu::always_inline]] inline float harmonic_sum(float X, float Y, float Z, float T,
                                                  const Moment& moment) {

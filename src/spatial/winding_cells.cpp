@@ -246,15 +246,23 @@ class WindingCells {
 VecX WindingNumber::at(const MatX3& queries, const Task& task) const {
   VecX values(queries.rows());
   const std::vector<int> order = morton_order(queries);
-  std::vector<int> inside, alone;
+  const auto sum_one_by_one = [&](const std::vector<int>& some) {
+    parallel_for(some.size(), most_a_part, [&](std::size_t begin, std::size_t end) {
+      task.checkpoint(double(begin) / double(order.size()));
+      for (std::size_t at = begin; at < end; ++at)
+        values[some[at]] = (*this)(queries.row(some[at]));
+    });
+  };
+  if (clusters_.empty()) {
+    sum_one_by_one(order);
+    return values;
+  }
   const WindingCells cells(*this, queries, values);
-  for (const int i : order) (!clusters_.empty() && cells.holds(i) ? inside : alone).push_back(i);
-  parallel_for(alone.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    task.checkpoint(double(begin) / double(order.size()));
-    for (std::size_t at = begin; at < end; ++at)
-      values[alone[at]] = (*this)(queries.row(alone[at]));
-  });
+  std::vector<int> inside, beyond;
+  for (const int i : order) (cells.holds(i) ? inside : beyond).push_back(i);
+  sum_one_by_one(beyond);
   if (inside.empty()) return values;
+  const double done = double(beyond.size()) / double(order.size());
 
   struct Part {
     WindingCells::Cell cell;
@@ -268,7 +276,7 @@ VecX WindingNumber::at(const MatX3& queries, const Task& task) const {
                parts.push_back({cell, depth, {some.begin(), some.end()}});
              });
   parallel_for(parts.size(), 1, [&](std::size_t p, std::size_t) {
-    task.checkpoint(double(alone.size() + p) / double(order.size()));
+    task.checkpoint(done + (1 - done) * double(p) / double(parts.size()));
     cells.walk(parts[p].cell, parts[p].depth, 0, parts[p].queries,
                [&](const WindingCells::Cell& cell, int, std::span<const int> some) {
                  cells.sum(cell, some);

@@ -162,18 +162,18 @@ void WindingNumber::build(const Items& items, Queries queries) {
       else
         add_triangle(e.moments, items.triangles[i], items.areas[i], e.centre);
   }
-  if (queries == Queries::together) {
-    clusters_.resize(clusters.size());
-    for (std::size_t at = 0; at < clusters.size(); ++at) {
-      const Expansion& e = expansions[at];
-      const auto f = [](double x) { return static_cast<float>(x); };
-      GroupCluster& to = clusters_[at];
-      to = {f(e.centre[0]), f(e.centre[1]), f(e.centre[2]), f(e.radius), clusters[at].child, {}};
-      const auto moments = e.moments.coefficients(e.radius);
-      for (std::size_t k = 0; k < moments.size(); ++k) to.moments[k] = f(moments[k] / e.radius);
-    }
-  }
+  if (queries == Queries::together)
+    for (std::size_t at = 0; at < clusters.size(); ++at)
+      clusters_.push_back(expanded(expansions[at], clusters[at].child));
   root_ = add_node(items, expansions, 0);
+}
+
+GroupCluster WindingNumber::expanded(const Expansion& e, int child) {
+  const auto f = [](double x) { return static_cast<float>(x); };
+  GroupCluster to{f(e.centre[0]), f(e.centre[1]), f(e.centre[2]), f(e.radius), child, {}};
+  const auto moments = e.moments.coefficients(e.radius);
+  for (std::size_t k = 0; k < moments.size(); ++k) to.moments[k] = f(moments[k] / e.radius);
+  return to;
 }
 
 int WindingNumber::add_leaf(const Items& items, const Cluster& cluster,
@@ -222,11 +222,9 @@ int WindingNumber::add_node(const Items& items, const std::vector<Expansion>& ex
     }
     const Expansion& e = expansions[members[l]];
     ClusterLanes& to = node.moments;
-    const auto f = [](double x) { return static_cast<float>(x); };
-    to.x[l] = f(e.centre[0]), to.y[l] = f(e.centre[1]), to.z[l] = f(e.centre[2]);
-    to.radius[l] = f(e.radius);
-    const auto moments = e.moments.coefficients(e.radius);
-    for (std::size_t k = 0; k < moments.size(); ++k) to.moments[k][l] = f(moments[k] / e.radius);
+    const GroupCluster from = clusters_.empty() ? expanded(e, none) : clusters_[members[l]];
+    to.x[l] = from.x, to.y[l] = from.y, to.z[l] = from.z, to.radius[l] = from.radius;
+    for (std::size_t k = 0; k < from.moments.size(); ++k) to.moments[k][l] = from.moments[k];
     const Cluster& cluster = clusters[members[l]];
     node.child[l] = cluster.child < 0 ? -1 - add_leaf(items, cluster, e)
                                       : add_node(items, expansions, members[l]);

@@ -51,6 +51,7 @@ class WindingNumber {
   bool exact() const { return exact_; }
 
  private:
+  friend class WindingCells;
   static constexpr double four_pi = 4 * M_PI;
 
   // A cluster from far away.
@@ -78,6 +79,7 @@ class WindingNumber {
 
   void set_frame(const MatX3& points);
   void build(const Items& items, Queries queries);
+  static GroupCluster expanded(const Expansion& expansion, int child);
   int add_leaf(const Items& items, const Cluster& cluster, const Expansion& expansion);
   int add_node(const Items& items, const std::vector<Expansion>& expansions, int root);
   double leaf_sum(int leaf, const double* q, bool exactly) const;
@@ -95,7 +97,6 @@ class WindingNumber {
   CrossingNumber crossing_;  // one of the two: this, or the tree below
   int root_ = none;
   std::vector<Node> nodes_;
-  friend class WindingCells;
   std::vector<GroupCluster> clusters_;  // the tree of two children each, of which nodes are made
   std::vector<TriangleLanes> triangle_leaves_;  // one of the two
   std::vector<NarrowTriangleLanes> narrow_leaves_;

@@ -106,7 +106,7 @@ void write(const Samples& samples, const std::filesystem::path& path, const std:
   const std::string card = samples_card(samples, input);
   const PolygonSoup& surface = samples.surface;
   std::ostringstream corners;
-  for (const int corner : surface.corners) io::store_little(corners, std::int32_t{corner});
+  io::store_all_little(corners, surface.corners);  // of four bytes
   io::NamedArray faces{"faces", "<i4", {surface.corners.size() / 3, 3}, corners.str()};
   VecX frame(4);
   frame << samples.centre, samples.half_side;

@@ -221,6 +221,16 @@ struct ThreadCrew::Shared {
     std::unique_lock lock(mutex);
     changed.wait(lock, done);
   }
+  /// The mutex, which is held for moments: whoever slept until it is free would wake too late.
+  std::unique_lock<std::mutex> lock_soon() {
+    std::unique_lock lock(mutex, std::try_to_lock);
+    for (int i = 0; !lock && i < patience; ++i) {
+      pause_briefly();
+      (void)lock.try_lock();
+    }
+    if (!lock) lock.lock();
+    return lock;
+  }
   void start() {
     started = true;
     add_threads(threads, std::size_t(n_threads - 1), [this] { help(); });
@@ -231,7 +241,7 @@ struct ThreadCrew::Shared {
       wait(begun, [&] { return round.load() != seen; });
       SharedLoop* mine = nullptr;
       {
-        const std::lock_guard lock(mutex);
+        const auto lock = lock_soon();
         seen = round.load();
         if (over) return;
         mine = loop;
@@ -239,13 +249,13 @@ struct ThreadCrew::Shared {
         ++inside;
       }
       mine->work(number);
-      const std::lock_guard lock(mutex);
+      const auto lock = lock_soon();
       if (--inside == 0) ended.notify_one();
     }
   }
   void begin(SharedLoop* what, bool last = false) {
     {
-      const std::lock_guard lock(mutex);
+      const auto lock = lock_soon();
       loop = what;
       over = last;
       ++round;
@@ -255,7 +265,7 @@ struct ThreadCrew::Shared {
   /// Waits for those only that have begun.
   void end() {
     {
-      const std::lock_guard lock(mutex);
+      const auto lock = lock_soon();
       loop = nullptr;
     }
     wait(ended, [&] { return inside.load() == 0; });

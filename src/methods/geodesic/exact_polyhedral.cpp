@@ -4,6 +4,7 @@
 #include <array>
 #include <deque>
 #include <memory>
+#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -95,7 +96,7 @@ class Front {
     if (start.vertex < 0) {
       crew_[0]->clear();
       crew_[0]->leave_source(start);
-      settle(1, 0);
+      settle(1);
     } else if (offer({start.vertex, start.value, start.source, {}, 0})) {
       wait_at_vertex(start.vertex);
     }
@@ -121,20 +122,31 @@ class Front {
       if (!is_old) together_.push_back(entry.id);
       return true;
     });
+    sort_by_share();
     return double(together_.size()) * windows_each_;
+  }
+  /// Edges go on by the threads that put their windows away: these are in their caches.
+  void sort_by_share() {
+    const auto share_of = [](int id) { return RayCrossing::share_of(id < 0 ? -1 - id : id); };
+    share_begin_.fill(0);
+    for (const int id : together_) ++share_begin_[share_of(id) + 1];
+    std::partial_sum(share_begin_.begin(), share_begin_.end(), share_begin_.begin());
+    auto next = share_begin_;
+    sorted_.resize(together_.size());
+    for (const int id : together_) sorted_[next[share_of(id)]++] = id;
+    std::swap(sorted_, together_);
   }
 
   /// Lets all that was collected go on. Nobody sees what another of them sends: so they can do it
   /// at the same time, and the answer is the same whether they do or not.
   void go_on(double load) {
-    const std::size_t n = together_.size();
-    const std::size_t parts = load > worth_threads ? std::min(n, most_parts_) : 1;
+    const std::size_t parts = load > worth_threads ? most_parts_ : 1;
     while (crew_.size() < parts) add_member();
     threads_.run(parts, [&](std::size_t part) {
       RayCrossing& member = *crew_[part];
       member.clear();
-      const std::size_t end = (part + 1) * n / parts;
-      for (std::size_t i = part * n / parts; i < end; ++i) {
+      const std::size_t end = share_begin_[first_share(part + 1, parts)];
+      for (std::size_t i = share_begin_[first_share(part, parts)]; i < end; ++i) {
         for (int step = 0; step < RayCrossing::n_fetch_steps; ++step) {
           const std::size_t ahead = i + std::size_t(RayCrossing::n_fetch_steps - step);
           if (ahead < end) fetch(member, together_[ahead], step);
@@ -147,8 +159,11 @@ class Front {
     });
     double n_windows = 0;
     for (std::size_t part = 0; part < parts; ++part) n_windows += double(crew_[part]->n_gone_on());
-    windows_each_ = std::max(1.0, n_windows / double(n));
-    settle(parts, load);
+    windows_each_ = std::max(1.0, n_windows / double(together_.size()));
+    settle(parts);
+  }
+  static std::size_t first_share(std::size_t part, std::size_t parts) {
+    return part * RayCrossing::n_shares / parts;
   }
 
   static void fetch(const RayCrossing& member, int id, int step) {
@@ -159,7 +174,7 @@ class Front {
   }
 
   /// Puts what the first members of the crew have collected where it belongs.
-  void settle(std::size_t parts, double load) {
+  void settle(std::size_t parts) {
     for (std::size_t part = 0; part < parts; ++part) {
       const std::vector<RayCrossing::Offer>& offers = crew_[part]->offers();
       for (std::size_t i = 0; i < offers.size(); ++i) {
@@ -169,11 +184,11 @@ class Front {
       }
     }
     // As many as have sent, so that the memory of windows that one gets another gives.
-    const std::size_t workers = load > worth_threads ? parts : 1;
-    threads_.run(workers, [&](std::size_t worker) {
+    threads_.run(parts, [&](std::size_t worker) {
+      const std::size_t first = first_share(worker, parts), end = first_share(worker + 1, parts);
       std::vector<RayCrossing::Batch*>& mine = to_take_[worker];
       mine.clear();
-      for (std::size_t share = worker; share < RayCrossing::n_shares; share += workers)
+      for (std::size_t share = first; share < end; ++share)
         for (std::size_t part = 0; part < parts; ++part)
           for (const int i : crew_[part]->batches_of(share))
             mine.push_back(&crew_[part]->batches()[std::size_t(i)]);
@@ -185,7 +200,7 @@ class Front {
         if (i + 3 < mine.size()) search_.lists[mine[i + 3]->edge].windows.fetch();
         take(*mine[i], crew_[worker]->envelopes);
       }
-      for (std::size_t share = worker; share < RayCrossing::n_shares; share += workers)
+      for (std::size_t share = first; share < end; ++share)
         forget_passed(watched_[share], *crew_[worker]);
     });
     for (std::size_t part = 0; part < parts; ++part)
@@ -269,11 +284,12 @@ class Front {
   double budget_ = most_windows_;
   std::size_t relaxed_ = 0;  // times the limit was met
   double exact_within_ = infinity;
-  WaveQueue queue_;            // ids of edges with open windows; -1 - vertex
-  std::vector<int> together_;  // those of what goes on now
-  double windows_each_ = 1;    // of the edges among them, the last time
-  double now_ = 0;             // where the front is
-  bool is_crowded_ = false;    // many windows are held
+  WaveQueue queue_;                     // ids of edges with open windows; -1 - vertex
+  std::vector<int> together_, sorted_;  // those of what goes on now, by shares
+  std::array<std::size_t, RayCrossing::n_shares + 1> share_begin_{};  // in `together_`
+  double windows_each_ = 1;  // of the edges among them, the last time
+  double now_ = 0;           // where the front is
+  bool is_crowded_ = false;  // many windows are held
   std::array<std::vector<RayCrossing::Batch*>, RayCrossing::n_shares> to_take_;
   std::array<std::deque<Passing>, RayCrossing::n_shares> watched_;
   std::vector<std::unique_ptr<RayCrossing>> crew_;

@@ -99,7 +99,7 @@ class RayCrossing {
   /// Edges are divided into so many shares, neighbours in memory together, that several threads can
   /// put batches away.
   static constexpr std::size_t n_shares = 16;
-  static std::size_t share_of(int edge) { return std::size_t(edge) / 16 % n_shares; }
+  static std::size_t share_of(int edge) { return std::size_t(edge) / 64 % n_shares; }
   const std::vector<int>& batches_of(std::size_t share) const { return of_share_[share]; }
 
   EdgeEnvelopes envelopes;

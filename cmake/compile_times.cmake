@@ -13,8 +13,8 @@ set(littoral_hot_sources
   src/methods/heat/strip_cell_kernels.cpp src/methods/heat/yukawa_sum.cpp
   src/methods/tori/torus_kernels.cpp
   src/operators/sample_directions.cpp
-  src/solve/direct/dense_products.cpp src/solve/direct/supernode_kernels.cpp
-  src/solve/direct/strip_kernels.cpp
+  src/solve/direct/block_times.cpp src/solve/direct/dense_products.cpp
+  src/solve/direct/supernode_kernels.cpp src/solve/direct/strip_kernels.cpp
   src/solve/multigrid/cosine_lines.cpp src/solve/multigrid/cosine_transform.cpp
   src/solve/network/flow_interior_point.cpp src/solve/network/network_simplex.cpp
   src/spatial/bound_kernels.cpp src/spatial/crossing_kernels.cpp src/spatial/crossing_number.cpp
@@ -28,8 +28,9 @@ endforeach()
 if(NOT LITTORAL_QUICK_BUILD)  # files with options are compiled alone
   set_property(SOURCE ${littoral_hot_sources} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
   # Beside a precompiled header of -O2 GCC does not do all that -O3 does; here it shows in the times.
-  set_property(SOURCE src/solve/direct/dense_products.cpp src/solve/direct/supernode_kernels.cpp src/solve/direct/strip_kernels.cpp
-    src/spatial/crossing_number.cpp src/spatial/triangle_bvh.cpp src/spatial/winding_number.cpp
+  set_property(SOURCE src/solve/direct/block_times.cpp src/solve/direct/dense_products.cpp
+    src/solve/direct/supernode_kernels.cpp src/solve/direct/strip_kernels.cpp src/spatial/crossing_number.cpp
+    src/spatial/triangle_bvh.cpp src/spatial/winding_number.cpp
     PROPERTY SKIP_PRECOMPILE_HEADERS ON)
 endif()
 

@@ -21,3 +21,10 @@
 #define LITTORAL_HAS_AVX512 \
   (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
 #endif
+
+namespace littoral {
+
+/// What a processor may be asked for: tests compare the ways that this one has.
+enum class Instructions { plain, avx2, any };
+
+}  // namespace littoral

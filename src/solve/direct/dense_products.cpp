@@ -17,7 +17,7 @@ namespace {
 // Bounds of what is copied at once: of A `deep` columns and `tall` rows, which stay in the cache of
 // a core, of B `wide` columns. They do not depend on tiles, so that sums are made alike for all.
 template <class Scalar>
-constexpr int deep = std::is_same_v<Scalar, double> ? 256 : 192;
+constexpr int deep = std::is_same_v<Scalar, double> ? 256 : 128;
 template <class Scalar>
 constexpr int tall = std::is_same_v<Scalar, double> ? 192 : 96;
 template <class Scalar>
@@ -48,10 +48,17 @@ struct Copies {
   }
 };
 
+/// What the product of complex numbers takes of one.
+[[gnu::always_inline]] inline void put(double real, double imaginary, double* to, int step) {
+  to[0] = real;
+  to[step] = imaginary;
+  to[2 * step] = real + imaginary;
+}
+
 /// Rows of A, `rows` at a time and of each column one after the other, zeros to fill: of complex
 /// numbers first the real parts of a column's rows.
 template <int rows, class Scalar>
-void copy_rows(int m, int k, const Operand<Scalar>& A, double* to) {
+[[gnu::always_inline]] inline void copy_rows(int m, int k, const Operand<Scalar>& A, double* to) {
   for (int i = 0; i < m; i += rows) {
     const int n = std::min(rows, m - i);
     const Scalar* from = A.at + i * A.row;
@@ -67,14 +74,13 @@ void copy_rows(int m, int k, const Operand<Scalar>& A, double* to) {
       } else {
         const double sign = A.conjugated ? -1 : 1;
         if (n == rows && A.row == 1)
-          for (int r = 0; r < rows; ++r)
-            to[r] = from[r].real(), to[rows + r] = sign * from[r].imag();
+          for (int r = 0; r < rows; ++r) put(from[r].real(), sign * from[r].imag(), to + r, rows);
         else
           for (int r = 0; r < rows; ++r) {
             const Scalar a = r < n ? from[r * A.row] : Scalar(0);
-            to[r] = a.real(), to[rows + r] = sign * a.imag();
+            put(a.real(), sign * a.imag(), to + r, rows);
           }
-        to += 2 * rows;
+        to += 3 * rows;
       }
     }
   }
@@ -82,7 +88,8 @@ void copy_rows(int m, int k, const Operand<Scalar>& A, double* to) {
 
 /// Columns of -B, `columns` at a time and of each row one after the other.
 template <int columns, class Scalar>
-void copy_columns(int k, int n, const Operand<Scalar>& B, double* to) {
+[[gnu::always_inline]] inline void copy_columns(int k, int n, const Operand<Scalar>& B,
+                                                double* to) {
   for (int j = 0; j < n; j += columns) {
     const int own = std::min(columns, n - j);
     const Scalar* from = B.at + j * B.column;
@@ -92,28 +99,29 @@ void copy_columns(int k, int n, const Operand<Scalar>& B, double* to) {
         if constexpr (std::is_same_v<Scalar, double>) {
           *to++ = -b;
         } else {
-          *to++ = -b.real();
-          *to++ = B.conjugated ? b.imag() : -b.imag();
+          put(-b.real(), B.conjugated ? b.imag() : -b.imag(), to, 1);
+          to += 3;
         }
       }
   }
 }
 
-template <class T, class Scalar, class SolveRows>
-void solve(int m, int n, const Scalar* L, int ldl, Scalar* B, int ldb, SolveRows solve_rows) {
-  constexpr int rows = T::rows * int(sizeof(double)) / int(sizeof(Scalar));
+template <class Set, class Scalar>
+void solve(int m, int n, const Scalar* L, int ldl, Scalar* B, int ldb) {
+  constexpr int rows = Set::Rows::rows * int(sizeof(double)) / int(sizeof(Scalar));
   int i = 0;
-  for (; i + rows <= m; i += rows) solve_rows(n, L, ldl, B + i, ldb);
+  for (; i + rows <= m; i += rows) Set::solve_rows(n, L, ldl, B + i, ldb);
   if (i == m) return;
   Scalar last[rows * narrow] = {};
   for (int j = 0; j < n; ++j) std::copy_n(B + i + index(j) * ldb, m - i, last + j * rows);
-  solve_rows(n, L, ldl, last, rows);
+  Set::solve_rows(n, L, ldl, last, rows);
   for (int j = 0; j < n; ++j) std::copy_n(last + j * rows, m - i, B + i + index(j) * ldb);
 }
 
-template <class T, class Scalar, class Add>
+template <class Set, class Scalar>
 void subtract(int m, int n, int k, const Operand<Scalar>& A, const Operand<Scalar>& B, Scalar* C,
-              int ldc, const ProductOptions& options, Add add) {
+              int ldc, const ProductOptions& options) {
+  using T = typename Set::Tile;
   if (m == 0 || n == 0 || k == 0) {
     for (int j = 0; options.from_zero && j < n; ++j) {
       const int above = options.lower ? std::min(j, m) : 0;
@@ -121,7 +129,7 @@ void subtract(int m, int n, int k, const Operand<Scalar>& A, const Operand<Scala
     }
     return;
   }
-  constexpr int numbers = std::is_same_v<Scalar, double> ? 1 : 2;
+  constexpr int numbers = std::is_same_v<Scalar, double> ? 1 : 3;
   constexpr int high = tall<Scalar>, far = wide<Scalar>;
   static_assert(std::size_t(up(high, T::rows)) * deep<Scalar> * numbers <= Copies::a_size);
   static_assert(std::size_t(up(far, T::columns)) * deep<Scalar> * numbers <= Copies::b_size);
@@ -131,13 +139,13 @@ void subtract(int m, int n, int k, const Operand<Scalar>& A, const Operand<Scala
     const int columns = std::min(far, n - j0);
     for (int l0 = 0; l0 < k; l0 += deep<Scalar>) {
       const int depth = std::min(deep<Scalar>, k - l0);
-      copy_columns<T::columns>(
+      Set::copy_columns(
           depth, columns,
           Operand<Scalar>{B.at + l0 * B.row + j0 * B.column, B.row, B.column, B.conjugated},
           copies.b.get());
       for (int i0 = options.lower ? j0 / T::rows * T::rows : 0; i0 < m; i0 += high) {
         const int rows = std::min(high, m - i0);
-        copy_rows<T::rows>(
+        Set::copy_rows(
             rows, depth,
             Operand<Scalar>{A.at + i0 * A.row + l0 * A.column, A.row, A.column, A.conjugated},
             copies.a.get());
@@ -150,21 +158,16 @@ void subtract(int m, int n, int k, const Operand<Scalar>& A, const Operand<Scala
             const double* a = copies.a.get() + std::ptrdiff_t(i) * depth * numbers;
             Scalar* c = C + first + index(column) * ldc;
             const bool below = !options.lower || first >= column + tile_columns;
-            if (options.from_zero && l0 == 0)
-              for (int q = 0; q < tile_columns; ++q) {
-                const int p = below ? 0 : std::clamp(column + q - first, 0, tile_rows);
-                std::fill_n(c + p + q * std::ptrdiff_t(ldc), tile_rows - p, Scalar(0));
-              }
+            const bool from_zero = options.from_zero && l0 == 0;
             if (below && tile_rows == T::rows && tile_columns == T::columns) {
-              add(depth, a, b, c, ldc);
+              Set::add(depth, a, b, c, ldc, from_zero);
               continue;
             }
-            std::fill_n(own, T::rows * T::columns, Scalar(0));
-            add(depth, a, b, own, T::rows);
+            Set::add(depth, a, b, own, T::rows, true);
             for (int q = 0; q < tile_columns; ++q)
               for (int p = below ? 0 : std::max(0, column + q - first); p < tile_rows; ++p) {
                 Scalar& to = c[p + q * std::ptrdiff_t(ldc)];
-                to += own[p + q * T::rows];
+                to = (from_zero ? Scalar(0) : to) + own[p + q * T::rows];
                 if (!below && first + p == column + q) to = std::real(to);
               }
           }
@@ -174,56 +177,58 @@ void subtract(int m, int n, int k, const Operand<Scalar>& A, const Operand<Scala
   }
 }
 
+/// What is done by one set of instructions. Shapes: tiles of real and of complex numbers, and rows
+/// that are solved at once.
+#define LITTORAL_INSTRUCTIONS(Set, Shapes, target)                                                 \
+  template <class Scalar>                                                                          \
+  struct Set {                                                                                     \
+    using Tile =                                                                                   \
+        std::conditional_t<std::is_same_v<Scalar, double>, Shapes::Real, Shapes::Complex>;         \
+    using Rows = Shapes::Rows;                                                                     \
+    target static void add(int k, const double* a, const double* b, Scalar* C, std::ptrdiff_t ldc, \
+                           bool from_zero) {                                                       \
+      add_tile_of<Tile>(k, a, b, C, ldc, from_zero);                                               \
+    }                                                                                              \
+    target static void solve_rows(int n, const Scalar* L, std::ptrdiff_t ldl, Scalar* B,           \
+                                  std::ptrdiff_t ldb) {                                            \
+      solve_rows_of<Rows>(n, L, ldl, B, ldb);                                                      \
+    }                                                                                              \
+    target static void copy_rows(int m, int k, const Operand<Scalar>& A, double* to) {             \
+      dense::copy_rows<Tile::rows>(m, k, A, to);                                                   \
+    }                                                                                              \
+    target static void copy_columns(int k, int n, const Operand<Scalar>& B, double* to) {          \
+      dense::copy_columns<Tile::columns>(k, n, B, to);                                             \
+    }                                                                                              \
+  };
+
 // Sixteen registers of two doubles, or thirty-two: sums and what they are made of.
+struct PlainShapes {
 #if defined(__aarch64__)
-template <class Scalar>
-using PlainTile = std::conditional_t<std::is_same_v<Scalar, double>, Tile<2, 4, 6>, Tile<2, 2, 5>>;
+  using Real = Tile<2, 4, 6>;
+  using Complex = Tile<2, 4, 2>;
 #else
-template <class Scalar>
-using PlainTile = std::conditional_t<std::is_same_v<Scalar, double>, Tile<2, 2, 4>, Tile<2, 1, 4>>;
+  using Real = Tile<2, 2, 4>;
+  using Complex = Tile<2, 2, 2>;
 #endif
-using PlainRows = Tile<2, 4, 0>;
-template <class Scalar>
-void plain_tile(int k, const double* a, const double* b, Scalar* C, std::ptrdiff_t ldc) {
-  add_tile_of<PlainTile<Scalar>>(k, a, b, C, ldc);
-}
-template <class Scalar>
-void plain_rows(int n, const Scalar* L, std::ptrdiff_t ldl, Scalar* B, std::ptrdiff_t ldb) {
-  solve_rows_of<PlainRows>(n, L, ldl, B, ldb);
-}
+  using Rows = Tile<2, 4, 0>;
+};
+LITTORAL_INSTRUCTIONS(Plain, PlainShapes, )
 
 #if defined(__x86_64__)
-#define LITTORAL_TILES_AVX2 "avx2,fma"
-#define LITTORAL_TILES_AVX512 LITTORAL_AVX512 ",avx2,fma"
-template <class Scalar>
-using Avx2Tile = std::conditional_t<std::is_same_v<Scalar, double>, Tile<4, 2, 6>, Tile<4, 1, 6>>;
-using Avx2Rows = Tile<4, 4, 0>;
-template <class Scalar>
-using Avx512Tile =
-    std::conditional_t<std::is_same_v<Scalar, double>, Tile<8, 2, 12>, Tile<8, 2, 6>>;
-using Avx512Rows = Tile<8, 4, 0>;
-
-template <class Scalar>
-[[gnu::target(LITTORAL_TILES_AVX2)]] void avx2_tile(int k, const double* a, const double* b,
-                                                    Scalar* C, std::ptrdiff_t ldc) {
-  add_tile_of<Avx2Tile<Scalar>>(k, a, b, C, ldc);
-}
-template <class Scalar>
-[[gnu::target(LITTORAL_TILES_AVX2)]] void avx2_rows(int n, const Scalar* L, std::ptrdiff_t ldl,
-                                                    Scalar* B, std::ptrdiff_t ldb) {
-  solve_rows_of<Avx2Rows>(n, L, ldl, B, ldb);
-}
-template <class Scalar>
-[[gnu::target(LITTORAL_TILES_AVX512)]] void avx512_tile(int k, const double* a, const double* b,
-                                                        Scalar* C, std::ptrdiff_t ldc) {
-  add_tile_of<Avx512Tile<Scalar>>(k, a, b, C, ldc);
-}
-template <class Scalar>
-[[gnu::target(LITTORAL_TILES_AVX512)]] void avx512_rows(int n, const Scalar* L, std::ptrdiff_t ldl,
-                                                        Scalar* B, std::ptrdiff_t ldb) {
-  solve_rows_of<Avx512Rows>(n, L, ldl, B, ldb);
-}
+struct Avx2Shapes {
+  using Real = Tile<4, 2, 6>;
+  using Complex = Tile<4, 2, 2>;
+  using Rows = Tile<4, 4, 0>;
+};
+LITTORAL_INSTRUCTIONS(Avx2, Avx2Shapes, [[gnu::target("avx2,fma")]])
+struct Avx512Shapes {
+  using Real = Tile<8, 2, 12>;
+  using Complex = Tile<8, 2, 4>;
+  using Rows = Tile<8, 4, 0>;
+};
+LITTORAL_INSTRUCTIONS(Avx512, Avx512Shapes, [[gnu::target(LITTORAL_AVX512 ",avx2,fma")]])
 #endif
+#undef LITTORAL_INSTRUCTIONS
 
 template <class Scalar>
 struct Kernels {
@@ -231,37 +236,24 @@ struct Kernels {
                    const ProductOptions&);
   void (*solve)(int, int, const Scalar*, int, Scalar*, int);
 
-  template <class Tile, class Rows, auto add, auto solve_rows>
+  template <class Set>
   static constexpr Kernels of() {
-    return {[](int m, int n, int k, const Operand<Scalar>& A, const Operand<Scalar>& B, Scalar* C,
-               int ldc, const ProductOptions& options) {
-              dense::subtract<Tile>(m, n, k, A, B, C, ldc, options, add);
-            },
-            [](int m, int n, const Scalar* L, int ldl, Scalar* B, int ldb) {
-              dense::solve<Rows>(m, n, L, ldl, B, ldb, solve_rows);
-            }};
+    return {&dense::subtract<Set, Scalar>, &dense::solve<Set, Scalar>};
   }
 };
 
 template <class Scalar>
-constexpr Kernels<Scalar> plain = Kernels<Scalar>::template of<
-    PlainTile<Scalar>, PlainRows, &plain_tile<Scalar>, &plain_rows<Scalar>>();
-
-template <class Scalar>
 const Kernels<Scalar>& kernels([[maybe_unused]] Instructions allowed) {
+  static constexpr auto plain = Kernels<Scalar>::template of<Plain<Scalar>>();
 #if defined(__x86_64__)
-  static constexpr auto avx2 =
-      Kernels<Scalar>::template of<Avx2Tile<Scalar>, Avx2Rows, &avx2_tile<Scalar>,
-                                   &avx2_rows<Scalar>>();
-  static constexpr auto avx512 =
-      Kernels<Scalar>::template of<Avx512Tile<Scalar>, Avx512Rows, &avx512_tile<Scalar>,
-                                   &avx512_rows<Scalar>>();
+  static constexpr auto avx2 = Kernels<Scalar>::template of<Avx2<Scalar>>();
+  static constexpr auto avx512 = Kernels<Scalar>::template of<Avx512<Scalar>>();
   static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   static const bool has_avx512 = has_avx2 && LITTORAL_HAS_AVX512;
   if (has_avx512 && allowed == Instructions::any) return avx512;
   if (has_avx2 && allowed != Instructions::plain) return avx2;
 #endif
-  return plain<Scalar>;
+  return plain;
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include <cstddef>
 
+#include "base/kernel_choice.h"
+
 namespace littoral::dense {
 
 /// Numbers of a block or its adjoint: (i, j) is at[i * row + j * column], conjugated if so.
@@ -17,9 +19,6 @@ struct Operand {
 
 /// What a thread that calls these keeps for itself [bytes].
 inline constexpr std::size_t bytes_of_copies = 2640 << 10;
-
-/// What a processor may be asked for: tests compare the ways that this one has.
-enum class Instructions { plain, avx2, any };
 
 struct ProductOptions {
   bool lower = false;  // C's part on and below its diagonal, which is made real, and nothing else

@@ -2,6 +2,7 @@
 // The innermost loops of products of blocks and of solves with triangles, for any width of vectors.
 
 #include <cstddef>
+#include <utility>
 
 #include "base/vector_lanes.h"
 #include "littoral/types.h"
@@ -15,10 +16,10 @@ struct Tile {
   static constexpr int rows = width * vectors;
 };
 
-/// C := C + a b, all of a tile, a and b as copied.
+/// C := C + a b, all of a tile, a and b as copied; `from_zero`: C := a b.
 template <class T>
 [[gnu::always_inline]] inline void add_tile(int k, const double* a, const double* b, double* C,
-                                            std::ptrdiff_t ldc) {
+                                            std::ptrdiff_t ldc, bool from_zero) {
   using Lanes = typename Wide<T::width>::Lanes;
   Lanes sum[T::columns][T::vectors];
 #pragma GCC unroll 16
@@ -39,63 +40,72 @@ template <class T>
   for (int j = 0; j < T::columns; ++j)
 #pragma GCC unroll 4
     for (int v = 0; v < T::vectors; ++v) {
-      Lanes c;
-      load(c, C + j * ldc + v * T::width);
+      Lanes c{};
+      if (!from_zero) load(c, C + j * ldc + v * T::width);
       store(C + j * ldc + v * T::width, c + sum[j][v]);
     }
 }
 
-/// The same of complex numbers; C as doubles, ldc in complex numbers.
+/// Adds complex numbers, given by their real and imaginary parts, or puts them there.
+template <int width, class Lanes, int... i>
+[[gnu::always_inline]] inline void add_pairs(const Lanes& re, const Lanes& im, double* to,
+                                             bool from_zero, std::integer_sequence<int, i...>) {
+  Lanes first{}, second{};
+  if (!from_zero) {
+    load(first, to);
+    load(second, to + width);
+  }
+  store(to, first + __builtin_shufflevector(re, im, (i / 2 + i % 2 * width)...));
+  store(to + width, second + __builtin_shufflevector(re, im, ((i + width) / 2 + i % 2 * width)...));
+}
+
+/// The same of complex numbers, C as doubles, ldc in complex numbers: three products of real
+/// numbers where there could be four, as (a + i b)(c + i d) = ac - bd + i ((a + b)(c + d) - ac -
+/// bd). Of each number is copied a, b and a + b.
 template <class T>
 [[gnu::always_inline]] inline void add_complex_tile(int k, const double* a, const double* b,
-                                                    double* C, std::ptrdiff_t ldc) {
+                                                    double* C, std::ptrdiff_t ldc, bool from_zero) {
   using Lanes = typename Wide<T::width>::Lanes;
-  Lanes re[T::columns][T::vectors], im[T::columns][T::vectors];
+  Lanes sum[T::columns][T::vectors][3];
 #pragma GCC unroll 16
   for (int j = 0; j < T::columns; ++j)
 #pragma GCC unroll 4
-    for (int v = 0; v < T::vectors; ++v) re[j][v] = im[j][v] = Lanes{};
-  for (int l = 0; l < k; ++l, a += 2 * T::rows, b += 2 * T::columns) {
-    Lanes x[T::vectors], y[T::vectors];
+    for (int v = 0; v < T::vectors; ++v)
+#pragma GCC unroll 3
+      for (int p = 0; p < 3; ++p) sum[j][v][p] = Lanes{};
+  for (int l = 0; l < k; ++l, a += 3 * T::rows, b += 3 * T::columns) {
+#pragma GCC unroll 3
+    for (int p = 0; p < 3; ++p) {
+      Lanes x[T::vectors];
 #pragma GCC unroll 4
-    for (int v = 0; v < T::vectors; ++v) {
-      load(x[v], a + v * T::width);
-      load(y[v], a + T::rows + v * T::width);
-    }
+      for (int v = 0; v < T::vectors; ++v) load(x[v], a + p * T::rows + v * T::width);
 #pragma GCC unroll 16
-    for (int j = 0; j < T::columns; ++j) {
+      for (int j = 0; j < T::columns; ++j) {
 #pragma GCC unroll 4
-      for (int v = 0; v < T::vectors; ++v) {
-        re[j][v] += x[v] * b[2 * j];
-        im[j][v] += x[v] * b[2 * j + 1];
-        re[j][v] -= y[v] * b[2 * j + 1];
-        im[j][v] += y[v] * b[2 * j];
+        for (int v = 0; v < T::vectors; ++v) sum[j][v][p] += x[v] * b[3 * j + p];
       }
     }
   }
-  for (int j = 0; j < T::columns; ++j) {
-    double real[T::rows], imaginary[T::rows];
+#pragma GCC unroll 16
+  for (int j = 0; j < T::columns; ++j)
+#pragma GCC unroll 4
     for (int v = 0; v < T::vectors; ++v) {
-      store(real + v * T::width, re[j][v]);
-      store(imaginary + v * T::width, im[j][v]);
+      const Lanes re = sum[j][v][0] - sum[j][v][1];
+      const Lanes im = sum[j][v][2] - sum[j][v][0] - sum[j][v][1];
+      add_pairs<T::width>(re, im, C + 2 * (j * ldc + v * T::width), from_zero,
+                          std::make_integer_sequence<int, T::width>());
     }
-    double* c = C + 2 * j * ldc;
-    for (int i = 0; i < T::rows; ++i) {
-      c[2 * i] += real[i];
-      c[2 * i + 1] += imaginary[i];
-    }
-  }
 }
 
 template <class T>
 [[gnu::always_inline]] inline void add_tile_of(int k, const double* a, const double* b, double* C,
-                                               std::ptrdiff_t ldc) {
-  add_tile<T>(k, a, b, C, ldc);
+                                               std::ptrdiff_t ldc, bool from_zero) {
+  add_tile<T>(k, a, b, C, ldc, from_zero);
 }
 template <class T>
 [[gnu::always_inline]] inline void add_tile_of(int k, const double* a, const double* b, Complex* C,
-                                               std::ptrdiff_t ldc) {
-  add_complex_tile<T>(k, a, b, reinterpret_cast<double*>(C), ldc);
+                                               std::ptrdiff_t ldc, bool from_zero) {
+  add_complex_tile<T>(k, a, b, reinterpret_cast<double*>(C), ldc, from_zero);
 }
 
 /// B := B L^-T, of `T::rows` rows of B, n x n.

@@ -23,6 +23,7 @@
 
 #include "base/parallel.h"
 #include "io/read.h"
+#include "littoral/error.h"
 #include "spatial/morton_order.h"
 #include "spatial/triangulate.h"
 #include "spatial/winding_number.h"
@@ -167,7 +168,7 @@ void run(const std::string& word, int count, int checked) {
 }  // namespace
 }  // namespace littoral
 
-int main(int count, char** words) {
+int main(int count, char** words) try {
   int queries = 100000, checked = 1500;
   std::printf(
       "| soup, faces, queries | building, s | us | side, us | mean error | 99.9 %% | largest "
@@ -183,4 +184,7 @@ int main(int count, char** words) {
     else
       littoral::run(word, queries, checked);
   }
+} catch (const littoral::Error& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

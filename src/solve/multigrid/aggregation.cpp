@@ -2,21 +2,28 @@
 #include <cmath>
 #include <vector>
 
+#include "base/index.h"
+#include "base/now_and_then.h"
+#include "base/parallel.h"
 #include "solve/multigrid/multigrid.h"
 
 namespace littoral {
 
 namespace {
 
+constexpr std::size_t aggregated_rows = 1 << 15;
+
 /// Which entries of A are strong couplings.
 std::vector<char> strong_couplings(const SpRows& A, double strength) {
   const VecX d = A.diagonal();
   std::vector<char> strong(A.nonZeros(), 0);
-  for (int i = 0; i < A.rows(); ++i)
-    for (int e = A.outerIndexPtr()[i]; e < A.outerIndexPtr()[i + 1]; ++e) {
-      const int j = A.innerIndexPtr()[e];
-      strong[e] = j != i && -A.valuePtr()[e] > strength * std::sqrt(d[i] * d[j]);
-    }
+  parallel_for(std::size_t(A.rows()), aggregated_rows, [&](std::size_t first, std::size_t last) {
+    for (int i = int(first); i < int(last); ++i)
+      for (int e = A.outerIndexPtr()[i]; e < A.outerIndexPtr()[i + 1]; ++e) {
+        const int j = A.innerIndexPtr()[e];
+        strong[e] = j != i && -A.valuePtr()[e] > strength * std::sqrt(d[i] * d[j]);
+      }
+  });
   return strong;
 }
 
@@ -90,44 +97,55 @@ SpRows smoothed_aggregation(const SpRows& A, double strength, const Task& task) 
   const std::vector<char> strong = strong_couplings(A, strength);
   std::vector<int> group;
   const int n_groups = find_groups(A, strong, group, task);
-  // P = (1 - damping D^-1 A') P0, A' = A with weak couplings added to the diagonal D.
-  std::vector<int> begin(1, 0), columns;
-  std::vector<double> values;
-  begin.reserve(A.rows() + 1);
-  std::vector<int> place(n_groups, -1);
-  for (int i = 0; i < A.rows(); ++i) {
-    if (i % 65536 == 0) task.checkpoint();
-    const int start = columns.size();
-    auto at_group = [&](int g) -> double& {
-      if (place[g] < start) {
-        place[g] = columns.size();
-        columns.push_back(g);
-        values.push_back(0);
-      }
-      return values[place[g]];
-    };
-    if (group[i] >= 0) {
-      double D = 0;
-      at_group(group[i]) = 0;
-      for (int e = A.outerIndexPtr()[i]; e < A.outerIndexPtr()[i + 1]; ++e) {
-        const int j = A.innerIndexPtr()[e];
-        if (strong[e] && group[j] >= 0)
-          at_group(group[j]) += A.valuePtr()[e];
-        else
-          D += A.valuePtr()[e];
-      }
-      const double scale = D > 0 ? -damping / D : 0;
-      for (std::size_t k = start; k < values.size(); ++k) values[k] *= scale;
-      at_group(group[i]) += D > 0 ? 1 - damping : 1;
-    }
-    begin.push_back(columns.size());
-  }
-  // Copied as they are: Eigen wants columns ascending where it copies.
+  // P = (1 - damping D^-1 A') P0, A' = A with weak couplings added to the diagonal D; some rows of
+  // it, entries as they come.
+  struct Part {
+    std::vector<int> columns;
+    std::vector<double> values;
+  };
+  const auto n = std::size_t(A.rows());
+  std::vector<Part> parts((n + aggregated_rows - 1) / aggregated_rows);
   SpRows P(A.rows(), n_groups);
-  P.resizeNonZeros(columns.size());
-  std::copy(begin.begin(), begin.end(), P.outerIndexPtr());
-  std::copy(columns.begin(), columns.end(), P.innerIndexPtr());
-  std::copy(values.begin(), values.end(), P.valuePtr());
+  int* const ends = P.outerIndexPtr() + 1;  // within a part at first
+  parallel_for(n, aggregated_rows, [&](std::size_t first, std::size_t last) {
+    stop_if_cancelled(task);
+    std::vector<int>& columns = parts[first / aggregated_rows].columns;
+    std::vector<double>& values = parts[first / aggregated_rows].values;
+    for (int i = int(first); i < int(last); ++i) {
+      const std::size_t start = columns.size();
+      const auto at_group = [&](int g) -> double& {
+        const auto found = std::find(columns.begin() + index(start), columns.end(), g);
+        if (found != columns.end()) return values[std::size_t(found - columns.begin())];
+        columns.push_back(g);
+        return values.emplace_back(0);
+      };
+      if (group[i] >= 0) {
+        double D = 0;
+        at_group(group[i]) = 0;
+        for (int e = A.outerIndexPtr()[i]; e < A.outerIndexPtr()[i + 1]; ++e) {
+          const int j = A.innerIndexPtr()[e];
+          if (strong[e] && group[j] >= 0)
+            at_group(group[j]) += A.valuePtr()[e];
+          else
+            D += A.valuePtr()[e];
+        }
+        const double scale = D > 0 ? -damping / D : 0;
+        for (std::size_t k = start; k < values.size(); ++k) values[k] *= scale;
+        at_group(group[i]) += D > 0 ? 1 - damping : 1;
+      }
+      ends[i] = int(columns.size());
+    }
+  });
+  // Copied as they are: Eigen wants columns ascending where it copies.
+  std::vector<int> begin(1, 0);
+  for (const Part& part : parts) begin.push_back(begin.back() + int(part.columns.size()));
+  P.resizeNonZeros(begin.back());
+  parallel_for(n, aggregated_rows, [&](std::size_t first, std::size_t last) {
+    const std::size_t at = first / aggregated_rows;
+    for (std::size_t i = first; i < last; ++i) ends[i] += begin[at];
+    std::copy(parts[at].columns.begin(), parts[at].columns.end(), P.innerIndexPtr() + begin[at]);
+    std::copy(parts[at].values.begin(), parts[at].values.end(), P.valuePtr() + begin[at]);
+  });
   return P;
 }
 

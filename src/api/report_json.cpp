@@ -8,7 +8,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
+#include <vector>
 
+#include "base/index.h"
+#include "base/parallel.h"
 #include "base/platform/memory.h"
 
 namespace littoral {
@@ -130,15 +133,34 @@ std::string report_json(const Report& report) {
 }
 
 FieldRange range_of(std::string name, const Eigen::Ref<const VecX>& values) {
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  FieldRange range{std::move(name), none, none, std::size_t(values.size()), 0};
-  for (const double value : values) {
-    if (!std::isfinite(value)) {
-      ++range.not_finite;
-      continue;
+  constexpr std::size_t grain = std::size_t(1) << 18;
+  const double infinity = std::numeric_limits<double>::infinity();
+  struct Part {
+    double low, high;
+    std::size_t not_finite;
+  };
+  const auto n = std::size_t(values.size());
+  std::vector<Part> parts((n + grain - 1) / grain);
+  parallel_for(n, grain, [&](std::size_t begin, std::size_t end) {
+    Part part{infinity, -infinity, 0};
+    for (std::size_t i = begin; i < end; ++i) {
+      const double value = values[index(i)];
+      if (!std::isfinite(value)) {
+        ++part.not_finite;
+        continue;
+      }
+      part.low = std::min(part.low, value);
+      part.high = std::max(part.high, value);
     }
-    range.low = std::fmin(range.low, value);
-    range.high = std::fmax(range.high, value);
+    parts[begin / grain] = part;
+  });
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  FieldRange range{std::move(name), none, none, n, 0};
+  for (const Part& part : parts) {
+    range.not_finite += part.not_finite;
+    if (part.low > part.high) continue;
+    range.low = std::fmin(range.low, part.low);
+    range.high = std::fmax(range.high, part.high);
   }
   return range;
 }

@@ -248,7 +248,10 @@ struct ThreadCrew::Shared {
         if (mine == nullptr) continue;  // too late
         ++inside;
       }
-      mine->work(number);
+      {
+        const AtWork counted;
+        mine->work(number);
+      }
       const auto lock = lock_soon();
       if (--inside == 0) ended.notify_one();
     }
@@ -300,6 +303,7 @@ void ThreadCrew::run(std::size_t n, const std::function<void(std::size_t)>& body
   }
   if (!shared_->started) shared_->start();
   SharedLoop loop(n, body, std::size_t(size()));
+  const AtWork counted;
   shared_->begin(&loop);
   loop.work();
   shared_->end();

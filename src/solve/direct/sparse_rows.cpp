@@ -26,26 +26,31 @@ void counts_to_begins(int* begin, Eigen::Index rows) {
 SpRows full_rows(const SpMat& lower) {
   const Eigen::Index n = lower.cols();
   SpRows A(n, n);
-  int* begin = A.outerIndexPtr();  // zeros
-  for (int j = 0; j < n; ++j)
-    for (SpMat::InnerIterator it(lower, j); it; ++it) {
-      ++begin[it.row() + 1];
-      if (it.row() != j) ++begin[j + 1];
-    }
+  int* const begin = A.outerIndexPtr();  // zeros
+  const auto left = [&](std::size_t from, std::size_t end, const auto& see) {
+    for (int j = 0; j < n && j < index(end); ++j)
+      for (SpMat::InnerIterator it(lower, j); it; ++it)
+        if (it.row() != j && std::size_t(it.row()) - from < end - from) see(j, it);
+  };
+  parallel_ranges(std::size_t(n), row_grain, [&](std::size_t from, std::size_t end) {
+    left(from, end, [&](int, const SpMat::InnerIterator& it) { ++begin[it.row() + 1]; });
+    for (std::size_t j = from; j < end; ++j)
+      for (SpMat::InnerIterator it(lower, index(j)); it; ++it) ++begin[j + 1];
+  });
   counts_to_begins(begin, n);
   A.resizeNonZeros(begin[n]);
   std::vector<int> at(begin, begin + n);
-  auto put = [&](Eigen::Index i, int j, double a) {
-    A.innerIndexPtr()[at[i]] = j;
-    A.valuePtr()[at[i]++] = a;
-  };
   // Left of the diagonal from columns in ascending order, then the diagonal and what is right of
   // it: every row comes out sorted.
-  for (int j = 0; j < n; ++j)
-    for (SpMat::InnerIterator it(lower, j); it; ++it)
-      if (it.row() != j) put(it.row(), j, it.value());
-  for (int j = 0; j < n; ++j)
-    for (SpMat::InnerIterator it(lower, j); it; ++it) put(j, it.row(), it.value());
+  parallel_ranges(std::size_t(n), row_grain, [&](std::size_t from, std::size_t end) {
+    const auto put = [&](Eigen::Index i, int j, double a) {
+      A.innerIndexPtr()[at[i]] = j;
+      A.valuePtr()[at[i]++] = a;
+    };
+    left(from, end, [&](int j, const SpMat::InnerIterator& it) { put(it.row(), j, it.value()); });
+    for (int j = int(from); j < int(end); ++j)
+      for (SpMat::InnerIterator it(lower, j); it; ++it) put(j, int(it.row()), it.value());
+  });
   return A;
 }
 
@@ -105,11 +110,11 @@ SpRows product(const SpRows& A, const SpRows& B, const Task& task) {
   });
   counts_to_begins(begin, C.rows());
   C.resizeNonZeros(begin[C.rows()]);
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
+  parallel_for(pieces.size(), 1, [&](std::size_t p, std::size_t) {
     std::copy(pieces[p].to.begin(), pieces[p].to.end(), C.innerIndexPtr() + begin[p * grain]);
     std::copy(pieces[p].value.begin(), pieces[p].value.end(), C.valuePtr() + begin[p * grain]);
     pieces[p] = {};
-  }
+  });
   return C;
 }
 

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include "base/index.h"
+#include "base/parallel.h"
+#include "base/thread_crew.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -13,6 +17,19 @@ namespace {
 
 constexpr int band_width = 4;  // neighbours of neighbours of ... the stiff unknowns
 constexpr int max_iterations = 500;
+
+constexpr std::size_t numbers_at_once = 1 << 15;
+
+/// a . b, the same for any number of threads.
+double dot(const VecX& a, const VecX& b) {
+  const auto n = std::size_t(a.size());
+  std::vector<double> parts((n + numbers_at_once - 1) / numbers_at_once);
+  parallel_for(n, numbers_at_once, [&](std::size_t begin, std::size_t end) {
+    const auto first = index(begin), size = index(end - begin);
+    parts[begin / numbers_at_once] = a.segment(first, size).dot(b.segment(first, size));
+  });
+  return std::accumulate(parts.begin(), parts.end(), 0.0);
+}
 
 /// The unknowns within some steps of the given ones, ascending.
 std::vector<int> around(const SpRows& A, const std::vector<int>& from, int steps) {
@@ -82,6 +99,7 @@ void BandedMultigrid::precondition(const VecX& b, VecX& x, Work& work, const Tas
 }
 
 VecX BandedMultigrid::solve(VecX b, double tolerance, const Task& task, Report& report) const {
+  const KeepThreads keep_threads;  // loops as short as a level is small
   const SpRows& A = multigrid_.matrix();
   VecX x = VecX::Zero(b.size());
   if (!(b.cwiseAbs().maxCoeff() > 0)) return x;
@@ -90,20 +108,28 @@ VecX BandedMultigrid::solve(VecX b, double tolerance, const Task& task, Report& 
   VecX z, p;
   precondition(r, z, work, task);
   p = z;
-  double rz = r.dot(z);
+  double rz = dot(r, z);
   const double start = rz, enough = tolerance * tolerance * start;
   int step = 0;
   for (; step < max_iterations && rz > enough; ++step) {
     task.checkpoint(std::clamp(std::log(start / rz) / std::log(start / enough), 0.0, 1.0));
     multiply(A, p, Ap, task);
-    const double curvature = p.dot(Ap);
+    const double curvature = dot(p, Ap);
     if (!(curvature > 0)) break;
-    x += (rz / curvature) * p;
-    r -= (rz / curvature) * Ap;
+    const double along = rz / curvature;
+    parallel_for(std::size_t(x.size()), numbers_at_once, [&](std::size_t begin, std::size_t end) {
+      for (Eigen::Index i = index(begin); i < index(end); ++i) {
+        x[i] += along * p[i];
+        r[i] -= along * Ap[i];
+      }
+    });
     precondition(r, z, work, task);
     const double before = rz;
-    rz = r.dot(z);
-    p = z + (rz / before) * p;
+    rz = dot(r, z);
+    const double keep = rz / before;
+    parallel_for(std::size_t(p.size()), numbers_at_once, [&](std::size_t begin, std::size_t end) {
+      for (Eigen::Index i = index(begin); i < index(end); ++i) p[i] = z[i] + keep * p[i];
+    });
   }
   report.iterations.emplace_back("multigrid", step);
   if (!x.allFinite()) throw SolveError("the solution of a linear system is not finite");

@@ -19,11 +19,13 @@ constexpr std::size_t entries_at_once = 1 << 15;
 
 VecX inverse_row_sums(const SpRows& A) {
   VecX s(A.rows());
-  for (int i = 0; i < A.rows(); ++i) {
-    double sum = 0;
-    for (SpRows::InnerIterator it(A, i); it; ++it) sum += std::abs(it.value());
-    s[i] = sum > 0 ? 1 / sum : 0;
-  }
+  parallel_for(std::size_t(A.rows()), entries_at_once, [&](std::size_t begin, std::size_t end) {
+    for (Eigen::Index i = index(begin); i < index(end); ++i) {
+      double sum = 0;
+      for (SpRows::InnerIterator it(A, i); it; ++it) sum += std::abs(it.value());
+      s[i] = sum > 0 ? 1 / sum : 0;
+    }
+  });
   return s;
 }
 

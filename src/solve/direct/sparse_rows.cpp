@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "base/fetch_ahead.h"
@@ -87,7 +88,7 @@ SpRows product(const SpRows& A, const SpRows& B, const Task& task) {
   int* begin = C.outerIndexPtr();
   begin[0] = 0;
   parallel_for(n, grain, [&](std::size_t first, std::size_t end) {
-    Piece& piece = pieces[first / grain];
+    Piece piece;  // in nobody else's lines of memory
     std::vector<int> place(B.cols(), -1);
     for (std::size_t i = first; i < end; ++i) {
       if (i % 4096 == 0) stop_if_cancelled(task);
@@ -107,6 +108,7 @@ SpRows product(const SpRows& A, const SpRows& B, const Task& task) {
       }
       begin[i + 1] = int_size(piece.to) - start;
     }
+    pieces[first / grain] = std::move(piece);
   });
   counts_to_begins(begin, C.rows());
   C.resizeNonZeros(begin[C.rows()]);

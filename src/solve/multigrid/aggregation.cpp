@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/index.h"
@@ -104,20 +105,24 @@ SpRows smoothed_aggregation(const SpRows& A, double strength, const Task& task) 
     std::vector<double> values;
   };
   const auto n = std::size_t(A.rows());
-  std::vector<Part> parts((n + aggregated_rows - 1) / aggregated_rows);
+  const std::size_t grain = std::max(aggregated_rows, (n + 7) / 8);
+  std::vector<Part> parts((n + grain - 1) / grain);
   SpRows P(A.rows(), n_groups);
   int* const ends = P.outerIndexPtr() + 1;  // within a part at first
-  parallel_for(n, aggregated_rows, [&](std::size_t first, std::size_t last) {
-    stop_if_cancelled(task);
-    std::vector<int>& columns = parts[first / aggregated_rows].columns;
-    std::vector<double>& values = parts[first / aggregated_rows].values;
+  parallel_for(n, grain, [&](std::size_t first, std::size_t last) {
+    std::vector<int> columns;  // in nobody else's lines of memory
+    std::vector<double> values;
+    std::vector<int> place(n_groups, -1);
     for (int i = int(first); i < int(last); ++i) {
-      const std::size_t start = columns.size();
+      stop_now_and_then(i, task);
+      const int start = int_size(columns);
       const auto at_group = [&](int g) -> double& {
-        const auto found = std::find(columns.begin() + index(start), columns.end(), g);
-        if (found != columns.end()) return values[std::size_t(found - columns.begin())];
-        columns.push_back(g);
-        return values.emplace_back(0);
+        if (place[g] < start) {
+          place[g] = int_size(columns);
+          columns.push_back(g);
+          values.push_back(0);
+        }
+        return values[place[g]];
       };
       if (group[i] >= 0) {
         double D = 0;
@@ -133,15 +138,16 @@ SpRows smoothed_aggregation(const SpRows& A, double strength, const Task& task) 
         for (std::size_t k = start; k < values.size(); ++k) values[k] *= scale;
         at_group(group[i]) += D > 0 ? 1 - damping : 1;
       }
-      ends[i] = int(columns.size());
+      ends[i] = int_size(columns);
     }
+    parts[first / grain] = {std::move(columns), std::move(values)};
   });
   // Copied as they are: Eigen wants columns ascending where it copies.
   std::vector<int> begin(1, 0);
-  for (const Part& part : parts) begin.push_back(begin.back() + int(part.columns.size()));
+  for (const Part& part : parts) begin.push_back(begin.back() + int_size(part.columns));
   P.resizeNonZeros(begin.back());
-  parallel_for(n, aggregated_rows, [&](std::size_t first, std::size_t last) {
-    const std::size_t at = first / aggregated_rows;
+  parallel_for(n, grain, [&](std::size_t first, std::size_t last) {
+    const std::size_t at = first / grain;
     for (std::size_t i = first; i < last; ++i) ends[i] += begin[at];
     std::copy(parts[at].columns.begin(), parts[at].columns.end(), P.innerIndexPtr() + begin[at]);
     std::copy(parts[at].values.begin(), parts[at].values.end(), P.valuePtr() + begin[at]);

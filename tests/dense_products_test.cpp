@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -121,6 +122,38 @@ TYPED_TEST(DenseProducts, BitsAreThoseOfHalfTheWidth) {
     solve_right<TypeParam>(m, n, L.data(), n, x.data(), m, Instructions::avx2);
     solve_right<TypeParam>(m, n, L.data(), n, y.data(), m);
     EXPECT_EQ(x, y);
+  }
+}
+
+TYPED_TEST(DenseProducts, ErrorsAreThoseOfTheModuliThatAnEntrySums) {
+  using Dense = Matrix<TypeParam>;
+  const int m = 70, n = 45, k = 300;
+  Dense A = Dense::Random(m, k), B = Dense::Random(k, n);
+  for (int i = 0; i < m; ++i) A.row(i) *= std::pow(10.0, -2 * i);  // to 1e-138
+  for (int j = 0; j < n; ++j) B.col(j) *= std::pow(10.0, 3 * j - 60);
+  const MatX moduli = A.cwiseAbs() * B.cwiseAbs();
+  const Dense expected = -A * B;
+  for (const Instructions allowed : all_instructions) {
+    Dense got(m, n);
+    subtract_product<TypeParam>(m, n, k, whole<TypeParam>(A), whole<TypeParam>(B), got.data(), m,
+                                {.from_zero = true, .allowed = allowed});
+    EXPECT_LE(((got - expected).cwiseAbs().array() / moduli.array()).maxCoeff(), 1e-15);
+  }
+}
+
+TEST(ComplexProducts, OfRealNumbersAreThose) {
+  using Dense = Matrix<Complex>;
+  const MatX A = MatX::Random(50, 200), B = MatX::Random(200, 33);
+  const Dense a = A.cast<Complex>(), b = B.cast<Complex>();
+  for (const Instructions allowed : all_instructions) {
+    MatX real(50, 33);
+    Dense complex(50, 33);
+    subtract_product<double>(50, 33, 200, whole<double>(A), whole<double>(B), real.data(), 50,
+                             {.from_zero = true, .allowed = allowed});
+    subtract_product<Complex>(50, 33, 200, whole<Complex>(a), whole<Complex>(b), complex.data(), 50,
+                              {.from_zero = true, .allowed = allowed});
+    EXPECT_EQ(complex.imag(), MatX::Zero(50, 33));
+    EXPECT_LE((complex.real() - real).cwiseAbs().maxCoeff(), 1e-13);  // in other parts
   }
 }
 

@@ -26,7 +26,10 @@ struct ProductOptions {
   Instructions allowed = Instructions::any;
 };
 
-/// C := C - A B, A m x k, B k x n, C m x n by columns. The same bits with AVX2 and AVX-512.
+/// C := C - A B, A m x k, B k x n, C m x n by columns. The same bits with AVX2 and AVX-512. Of
+/// complex numbers an entry's error is bounded by the moduli of what it sums, not part by part: its
+/// parts come from three products of real numbers (Higham, Accuracy and stability of numerical
+/// algorithms, 2002, ch. 23).
 template <class Scalar>
 void subtract_product(int m, int n, int k, const Operand<Scalar>& A, const Operand<Scalar>& B,
                       Scalar* C, int ldc, const ProductOptions& options = {});

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/beside.h"
 #include "base/index.h"
 #include "base/now_and_then.h"
 #include "base/parallel.h"
@@ -144,9 +145,9 @@ std::vector<std::vector<int>> HeatWindows<Scalar>::parts(std::span<const int> bl
 }
 
 template <class Scalar>
-typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::solve_region(
-    const std::vector<int>& blocks, const std::vector<char>& known, const Vector& x, Vector r,
-    std::vector<int>& local, const Task& task) const {
+typename HeatWindows<Scalar>::Region HeatWindows<Scalar>::region_of(std::vector<int> blocks,
+                                                                    std::vector<int>& local,
+                                                                    const Task& task) const {
   for (std::size_t k = 0; k < blocks.size(); ++k) local[blocks[k]] = k;
   const int n_blocks = int_size(blocks), n = n_blocks * block_;
   Eigen::SparseMatrix<Scalar> K(n, n);  // lower triangle: a column is what a row has on its right
@@ -167,6 +168,7 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::solve_region(
   K.resizeNonZeros(sum);
   parallel_for(blocks.size(), window_grain, [&](std::size_t first, std::size_t end) {
     BlockRow<Scalar> row;
+    stop_if_cancelled(task);
     for (std::size_t k = first; k < end; ++k) {
       const int own = static_cast<int>(k);
       A_->row(blocks[k], row);
@@ -179,11 +181,9 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::solve_region(
         for (int i = c; i < block_; ++i) put(own * block_ + i, row.values[i * block_ + c]);
         for (std::size_t s = 1; s < row.blocks.size(); ++s) {
           const int j = row.blocks[s];
+          if (local[j] <= own) continue;
           const Scalar* z = &row.values[(s * block_ + c) * block_];
-          if (local[j] > own)
-            for (int i = 0; i < block_; ++i) put(local[j] * block_ + i, Eigen::numext::conj(z[i]));
-          else if (known[j])
-            for (int i = 0; i < block_; ++i) r[own * block_ + c] -= z[i] * x[j * block_ + i];
+          for (int i = 0; i < block_; ++i) put(local[j] * block_ + i, Eigen::numext::conj(z[i]));
         }
       }
     }
@@ -191,8 +191,33 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::solve_region(
   for (int i : blocks) local[i] = -1;
   Ordering in_order(n);
   std::iota(in_order.begin(), in_order.end(), 0);
-  const auto structure = std::make_shared<const Elimination>(K, in_order, task);
-  return raised_cholesky(K, structure, task).factor.solve(r);
+  auto structure = std::make_shared<const Elimination>(K, in_order, task);
+  return {std::move(blocks), std::move(K), std::move(structure)};
+}
+
+template <class Scalar>
+typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::solve_region(
+    const Region& region, const std::vector<char>& known, const Vector& x, Vector r,
+    const Task& task) const {
+  const std::vector<int>& blocks = region.blocks;
+  parallel_for(blocks.size(), window_grain, [&](std::size_t first, std::size_t end) {
+    std::vector<int> beside;
+    BlockRow<Scalar> row;
+    for (std::size_t k = first; k < end; ++k) {
+      A_->neighbours(blocks[k], beside);
+      if (std::ranges::none_of(beside, [&](int j) { return known[j] != 0; })) continue;
+      A_->row(blocks[k], row);
+      for (std::size_t s = 1; s < row.blocks.size(); ++s) {
+        const int j = row.blocks[s];
+        if (!known[j]) continue;
+        for (int c = 0; c < block_; ++c) {
+          const Scalar* z = &row.values[(s * block_ + c) * block_];
+          for (int i = 0; i < block_; ++i) r[index(k) * block_ + c] -= z[i] * x[j * block_ + i];
+        }
+      }
+    }
+  });
+  return raised_cholesky(region.K, region.structure, task).factor.solve(r);
 }
 
 template <class Scalar>
@@ -236,22 +261,34 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<S
       Vector::Zero(index(position_.size()) * block_), std::vector<int>(position_.size(), -1), {}};
   std::vector<int> local(position_.size(), -1);
   std::vector<char> known(position_.size(), 0), inside(position_.size(), 0);
+  const auto regions_of = [&](int of_window, const Task& stop) {
+    const std::size_t first = outward.nearer_than(of_window * window);
+    const std::size_t last = outward.nearer_than((of_window + 1) * window + overlap);
+    std::vector<Region> regions;
+    for (std::vector<int>& blocks : parts({order.data() + first, last - first}))
+      regions.push_back(region_of(std::move(blocks), local, stop));
+    return regions;
+  };
+  std::vector<Region> regions = regions_of(0, task), next;
   int windows = 0;
   for (std::size_t before = 0, start = 0; start < order.size(); ++windows) {
     task.checkpoint(double(start) / double(order.size()));
-    const int reach = (windows + 1) * window;
-    const std::size_t kept = outward.nearer_than(reach);
-    const std::size_t end = outward.nearer_than(reach + overlap);
+    const std::size_t kept = outward.nearer_than((windows + 1) * window);
     if (kept == start) return std::nullopt;  // steps longer than a window
+    // What a window is made of does not depend on the one before.
+    std::optional<Beside> beside;
+    if (kept < order.size())
+      beside.emplace([&, windows](const Task& stop) { next = regions_of(windows + 1, stop); });
     for (std::size_t k = start; k < kept; ++k) inside[order[k]] = 1;
     double top = 0;
-    for (const std::vector<int>& blocks : parts({&order[start], &order[start] + (end - start)})) {
+    for (const Region& region : regions) {
+      const std::vector<int>& blocks = region.blocks;
       Vector r = Vector::Zero(index(blocks.size()) * block_);
       if (windows == 0)
         for (std::size_t k = 0; k < blocks.size(); ++k)
           if (const Scalar* value = b.at(blocks[k]))
             for (int c = 0; c < block_; ++c) r[index(k) * block_ + c] = value[c];
-      const Vector z = solve_region(blocks, known, field.x, std::move(r), local, task);
+      const Vector z = solve_region(region, known, field.x, std::move(r), task);
       for (Eigen::Index k = 0; k < Eigen::Index(blocks.size()); ++k) {
         if (!inside[blocks[k]]) continue;
         top = std::max(top, block_magnitude(z, k, block_));
@@ -269,6 +306,9 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<S
     field.scale.push_back(top);
     for (; before < start; ++before) known[order[before]] = 0;
     start = kept;
+    regions.clear();
+    if (beside) beside->finish(task);
+    std::swap(regions, next);
   }
   return field;
 }
@@ -338,8 +378,8 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::source_prescribing(
   std::sort(blocks.begin(), blocks.end(),
             [&](int i, int j) { return position_[i] < position_[j]; });
   Vector x = values;
-  const Vector z =
-      solve_region(blocks, known, values, Vector::Zero(index(blocks.size()) * block_), local, task);
+  const Vector z = solve_region(region_of(blocks, local, task), known, values,
+                                Vector::Zero(index(blocks.size()) * block_), task);
   for (std::size_t k = 0; k < blocks.size(); ++k)
     x.segment(Eigen::Index(blocks[k]) * block_, block_) = z.segment(index(k) * block_, block_);
   Vector b = Vector::Zero(values.size());  // A x, in the rows of prescribed blocks

@@ -36,9 +36,9 @@ TYPED_TEST(BlockTimes, ProductsAreEigensAndEndWhereTheyShould) {
   for (int m = 0; m <= 40; ++m)
     for (const int n : {0, 1, 2, 5, 24}) {
       SCOPED_TRACE(std::to_string(m) + " x " + std::to_string(n));
-      const auto A = Fixture::Matrix::Random(m + between, n).eval();
+      const auto A = Fixture::Matrix::Random(m + between, n + 1).eval();
       const auto x = Fixture::Vector::Random(n).eval(), y = Fixture::Vector::Random(m + 9).eval();
-      const auto Ax = (A.topRows(m) * x).eval();
+      const auto Ax = (A.topLeftCorner(m, n) * x).eval();
       typename Fixture::Vector replaced = y, added = y, subtracted = y;
       replaced.head(m) = Ax;
       added.head(m) += Ax;

@@ -10,7 +10,7 @@
 #include "base/now_and_then.h"
 #include "base/parallel.h"
 #include "base/platform/large_pages.h"
-#include "solve/direct/cholesky.h"
+#include "solve/heat/heat_region.h"
 
 namespace littoral {
 
@@ -145,82 +145,6 @@ std::vector<std::vector<int>> HeatWindows<Scalar>::parts(std::span<const int> bl
 }
 
 template <class Scalar>
-typename HeatWindows<Scalar>::Region HeatWindows<Scalar>::region_of(std::vector<int> blocks,
-                                                                    std::vector<int>& local,
-                                                                    const Task& task) const {
-  for (std::size_t k = 0; k < blocks.size(); ++k) local[blocks[k]] = k;
-  const int n_blocks = int_size(blocks), n = n_blocks * block_;
-  Eigen::SparseMatrix<Scalar> K(n, n);  // lower triangle: a column is what a row has on its right
-  int* begin = K.outerIndexPtr();
-  parallel_for(blocks.size(), window_grain, [&](std::size_t first, std::size_t end) {
-    std::vector<int> beside;
-    for (std::size_t k = first; k < end; ++k) {
-      A_->neighbours(blocks[k], beside);
-      const auto right = std::count_if(beside.begin(), beside.end(),
-                                       [&](int j) { return local[j] > static_cast<int>(k); });
-      for (int c = 0; c < block_; ++c)
-        begin[index(k) * block_ + c] = block_ - c + block_ * static_cast<int>(right);
-    }
-  });
-  int sum = 0;
-  for (int k = 0; k < n; ++k) sum += std::exchange(begin[k], sum);
-  begin[n] = sum;
-  K.resizeNonZeros(sum);
-  parallel_for(blocks.size(), window_grain, [&](std::size_t first, std::size_t end) {
-    BlockRow<Scalar> row;
-    stop_if_cancelled(task);
-    for (std::size_t k = first; k < end; ++k) {
-      const int own = static_cast<int>(k);
-      A_->row(blocks[k], row);
-      for (int c = 0; c < block_; ++c) {
-        int e = begin[own * block_ + c];
-        const auto put = [&](int i, const Scalar& z) {
-          K.innerIndexPtr()[e] = i;
-          K.valuePtr()[e++] = z;
-        };
-        for (int i = c; i < block_; ++i) put(own * block_ + i, row.values[i * block_ + c]);
-        for (std::size_t s = 1; s < row.blocks.size(); ++s) {
-          const int j = row.blocks[s];
-          if (local[j] <= own) continue;
-          const Scalar* z = &row.values[(s * block_ + c) * block_];
-          for (int i = 0; i < block_; ++i) put(local[j] * block_ + i, Eigen::numext::conj(z[i]));
-        }
-      }
-    }
-  });
-  for (int i : blocks) local[i] = -1;
-  Ordering in_order(n);
-  std::iota(in_order.begin(), in_order.end(), 0);
-  auto structure = std::make_shared<const Elimination>(K, in_order, task);
-  return {std::move(blocks), std::move(K), std::move(structure)};
-}
-
-template <class Scalar>
-typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::solve_region(
-    const Region& region, const std::vector<char>& known, const Vector& x, Vector r,
-    const Task& task) const {
-  const std::vector<int>& blocks = region.blocks;
-  parallel_for(blocks.size(), window_grain, [&](std::size_t first, std::size_t end) {
-    std::vector<int> beside;
-    BlockRow<Scalar> row;
-    for (std::size_t k = first; k < end; ++k) {
-      A_->neighbours(blocks[k], beside);
-      if (std::ranges::none_of(beside, [&](int j) { return known[j] != 0; })) continue;
-      A_->row(blocks[k], row);
-      for (std::size_t s = 1; s < row.blocks.size(); ++s) {
-        const int j = row.blocks[s];
-        if (!known[j]) continue;
-        for (int c = 0; c < block_; ++c) {
-          const Scalar* z = &row.values[(s * block_ + c) * block_];
-          for (int i = 0; i < block_; ++i) r[index(k) * block_ + c] -= z[i] * x[j * block_ + i];
-        }
-      }
-    }
-  });
-  return raised_cholesky(region.K, region.structure, task).factor.solve(r);
-}
-
-template <class Scalar>
 std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<Scalar>& b,
                                                               const std::vector<int>& piece,
                                                               const Task& task,
@@ -261,39 +185,49 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<S
       Vector::Zero(index(position_.size()) * block_), std::vector<int>(position_.size(), -1), {}};
   std::vector<int> local(position_.size(), -1);
   std::vector<char> known(position_.size(), 0), inside(position_.size(), 0);
-  const auto regions_of = [&](int of_window, const Task& stop) {
-    const std::size_t first = outward.nearer_than(of_window * window);
-    const std::size_t last = outward.nearer_than((of_window + 1) * window + overlap);
-    std::vector<Region> regions;
-    for (std::vector<int>& blocks : parts({order.data() + first, last - first}))
-      regions.push_back(region_of(std::move(blocks), local, stop));
-    return regions;
+  // The parts of a window do not depend on the window before: the next one is made ready beside.
+  std::vector<std::vector<int>> waiting;  // of a window
+  std::size_t taken = 0;
+  int of_window = -1;
+  std::unique_ptr<HeatRegion<Scalar>> next;
+  const auto make_ready = [&](const Task& stop) {
+    if (taken == waiting.size()) {
+      ++of_window;
+      const std::size_t first = outward.nearer_than(of_window * window);
+      const std::size_t last = outward.nearer_than((of_window + 1) * window + overlap);
+      waiting = parts({order.data() + first, last - first});
+      taken = 0;
+    }
+    if (taken < waiting.size())
+      next = std::make_unique<HeatRegion<Scalar>>(*A_, std::move(waiting[taken++]), local, stop);
   };
-  std::vector<Region> regions = regions_of(0, task), next;
+  make_ready(task);
   int windows = 0;
   for (std::size_t before = 0, start = 0; start < order.size(); ++windows) {
     task.checkpoint(double(start) / double(order.size()));
     const std::size_t kept = outward.nearer_than((windows + 1) * window);
     if (kept == start) return std::nullopt;  // steps longer than a window
-    // What a window is made of does not depend on the one before.
-    std::optional<Beside> beside;
-    if (kept < order.size())
-      beside.emplace([&, windows](const Task& stop) { next = regions_of(windows + 1, stop); });
     for (std::size_t k = start; k < kept; ++k) inside[order[k]] = 1;
     double top = 0;
-    for (const Region& region : regions) {
-      const std::vector<int>& blocks = region.blocks;
+    for (bool is_last = false; !is_last;) {
+      auto region = std::move(next);
+      is_last = taken == waiting.size();
+      std::optional<Beside> beside;
+      if (!is_last || kept < order.size()) beside.emplace(make_ready);
+      const std::vector<int>& blocks = region->blocks;
       Vector r = Vector::Zero(index(blocks.size()) * block_);
       if (windows == 0)
         for (std::size_t k = 0; k < blocks.size(); ++k)
           if (const Scalar* value = b.at(blocks[k]))
             for (int c = 0; c < block_; ++c) r[index(k) * block_ + c] = value[c];
-      const Vector z = solve_region(region, known, field.x, std::move(r), task);
+      const Vector z = region->solve(*A_, known, field.x, std::move(r), task);
       for (Eigen::Index k = 0; k < Eigen::Index(blocks.size()); ++k) {
         if (!inside[blocks[k]]) continue;
         top = std::max(top, block_magnitude(z, k, block_));
         field.x.segment(Eigen::Index(blocks[k]) * block_, block_) = z.segment(k * block_, block_);
       }
+      region.reset();
+      if (beside) beside->finish(task);
     }
     if (!(top > 0) || !std::isfinite(top)) return std::nullopt;
     for (std::size_t k = start; k < kept; ++k) {
@@ -306,9 +240,6 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<S
     field.scale.push_back(top);
     for (; before < start; ++before) known[order[before]] = 0;
     start = kept;
-    regions.clear();
-    if (beside) beside->finish(task);
-    std::swap(regions, next);
   }
   return field;
 }
@@ -378,8 +309,9 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::source_prescribing(
   std::sort(blocks.begin(), blocks.end(),
             [&](int i, int j) { return position_[i] < position_[j]; });
   Vector x = values;
-  const Vector z = solve_region(region_of(blocks, local, task), known, values,
-                                Vector::Zero(index(blocks.size()) * block_), task);
+  const HeatRegion<Scalar> region(*A_, blocks, local, task);
+  const Vector z =
+      region.solve(*A_, known, values, Vector::Zero(index(blocks.size()) * block_), task);
   for (std::size_t k = 0; k < blocks.size(); ++k)
     x.segment(Eigen::Index(blocks[k]) * block_, block_) = z.segment(index(k) * block_, block_);
   Vector b = Vector::Zero(values.size());  // A x, in the rows of prescribed blocks

@@ -9,7 +9,6 @@
 
 #include "base/task.h"
 #include "littoral/report.h"
-#include "solve/direct/elimination.h"
 #include "solve/direct/hermitian_rows.h"
 #include "solve/direct/ordering.h"
 #include "solve/heat/scaled_field.h"
@@ -61,17 +60,6 @@ class HeatWindows {
   /// The connected parts of a region, which are solved one by one; each in the order of
   /// elimination.
   std::vector<std::vector<int>> parts(std::span<const int> blocks) const;
-  /// What is known of a region before its right-hand side is.
-  struct Region {
-    std::vector<int> blocks;  // in the order of elimination
-    Eigen::SparseMatrix<Scalar> K;
-    std::shared_ptr<const Elimination> structure;
-  };
-  /// local: per block -1, which it is again afterwards.
-  Region region_of(std::vector<int> blocks, std::vector<int>& local, const Task& task) const;
-  /// Solves there for r and what follows from x at known blocks beside it.
-  Vector solve_region(const Region& region, const std::vector<char>& known, const Vector& x,
-                      Vector r, const Task& task) const;
   std::optional<ScaledField<Scalar>> solve(const HeatSource<Scalar>& b, const Outward& outward,
                                            int overlap, const Task& task) const;
   double misfit(const ScaledField<Scalar>& field, const HeatSource<Scalar>& b,

@@ -48,7 +48,7 @@ struct Copies {
   }
 };
 
-/// What the product of complex numbers takes of one.
+/// What the three products of complex numbers take of one.
 [[gnu::always_inline]] inline void put(double real, double imaginary, double* to, int step) {
   to[0] = real;
   to[step] = imaginary;
@@ -56,9 +56,10 @@ struct Copies {
 }
 
 /// Rows of A, `rows` at a time and of each column one after the other, zeros to fill: of complex
-/// numbers first the real parts of a column's rows.
+/// numbers first all real parts, then all imaginary ones, then all sums of both.
 template <int rows, class Scalar>
 [[gnu::always_inline]] inline void copy_rows(int m, int k, const Operand<Scalar>& A, double* to) {
+  [[maybe_unused]] const int step = k * rows;
   for (int i = 0; i < m; i += rows) {
     const int n = std::min(rows, m - i);
     const Scalar* from = A.at + i * A.row;
@@ -74,15 +75,16 @@ template <int rows, class Scalar>
       } else {
         const double sign = A.conjugated ? -1 : 1;
         if (n == rows && A.row == 1)
-          for (int r = 0; r < rows; ++r) put(from[r].real(), sign * from[r].imag(), to + r, rows);
+          for (int r = 0; r < rows; ++r) put(from[r].real(), sign * from[r].imag(), to + r, step);
         else
           for (int r = 0; r < rows; ++r) {
             const Scalar a = r < n ? from[r * A.row] : Scalar(0);
-            put(a.real(), sign * a.imag(), to + r, rows);
+            put(a.real(), sign * a.imag(), to + r, step);
           }
-        to += 3 * rows;
+        to += rows;
       }
     }
+    if constexpr (!std::is_same_v<Scalar, double>) to += 2 * step;
   }
 }
 
@@ -90,6 +92,7 @@ template <int rows, class Scalar>
 template <int columns, class Scalar>
 [[gnu::always_inline]] inline void copy_columns(int k, int n, const Operand<Scalar>& B,
                                                 double* to) {
+  [[maybe_unused]] const int step = k * columns;
   for (int j = 0; j < n; j += columns) {
     const int own = std::min(columns, n - j);
     const Scalar* from = B.at + j * B.column;
@@ -99,10 +102,10 @@ template <int columns, class Scalar>
         if constexpr (std::is_same_v<Scalar, double>) {
           *to++ = -b;
         } else {
-          put(-b.real(), B.conjugated ? b.imag() : -b.imag(), to, 1);
-          to += 3;
+          put(-b.real(), B.conjugated ? b.imag() : -b.imag(), to++, step);
         }
       }
+    if constexpr (!std::is_same_v<Scalar, double>) to += 2 * step;
   }
 }
 
@@ -177,13 +180,11 @@ void subtract(int m, int n, int k, const Operand<Scalar>& A, const Operand<Scala
   }
 }
 
-/// What is done by one set of instructions. Shapes: tiles of real and of complex numbers, and rows
-/// that are solved at once.
+/// What is done by one set of instructions. Shapes: a tile, and rows that are solved at once.
 #define LITTORAL_INSTRUCTIONS(Set, Shapes, target)                                                 \
   template <class Scalar>                                                                          \
   struct Set {                                                                                     \
-    using Tile =                                                                                   \
-        std::conditional_t<std::is_same_v<Scalar, double>, Shapes::Real, Shapes::Complex>;         \
+    using Tile = Shapes::Tile;                                                                     \
     using Rows = Shapes::Rows;                                                                     \
     target static void add(int k, const double* a, const double* b, Scalar* C, std::ptrdiff_t ldc, \
                            bool from_zero) {                                                       \
@@ -204,27 +205,23 @@ void subtract(int m, int n, int k, const Operand<Scalar>& A, const Operand<Scala
 // Sixteen registers of two doubles, or thirty-two: sums and what they are made of.
 struct PlainShapes {
 #if defined(__aarch64__)
-  using Real = Tile<2, 4, 6>;
-  using Complex = Tile<2, 4, 2>;
+  using Tile = dense::Tile<2, 4, 6>;
 #else
-  using Real = Tile<2, 2, 4>;
-  using Complex = Tile<2, 2, 2>;
+  using Tile = dense::Tile<2, 2, 4>;
 #endif
-  using Rows = Tile<2, 4, 0>;
+  using Rows = dense::Tile<2, 4, 0>;
 };
 LITTORAL_INSTRUCTIONS(Plain, PlainShapes, )
 
 #if defined(__x86_64__)
 struct Avx2Shapes {
-  using Real = Tile<4, 2, 6>;
-  using Complex = Tile<4, 2, 2>;
-  using Rows = Tile<4, 4, 0>;
+  using Tile = dense::Tile<4, 2, 6>;
+  using Rows = dense::Tile<4, 4, 0>;
 };
 LITTORAL_INSTRUCTIONS(Avx2, Avx2Shapes, [[gnu::target("avx2,fma")]])
 struct Avx512Shapes {
-  using Real = Tile<8, 2, 12>;
-  using Complex = Tile<8, 2, 4>;
-  using Rows = Tile<8, 4, 0>;
+  using Tile = dense::Tile<8, 2, 12>;
+  using Rows = dense::Tile<8, 4, 0>;
 };
 LITTORAL_INSTRUCTIONS(Avx512, Avx512Shapes, [[gnu::target(LITTORAL_AVX512 ",avx2,fma")]])
 #endif

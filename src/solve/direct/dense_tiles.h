@@ -60,40 +60,25 @@ template <int width, class Lanes, int... i>
 }
 
 /// The same of complex numbers, C as doubles, ldc in complex numbers: three products of real
-/// numbers where there could be four, as (a + i b)(c + i d) = ac - bd + i ((a + b)(c + d) - ac -
-/// bd). Of each number is copied a, b and a + b.
+/// numbers, one after the other, where there could be four, as (a + i b)(c + i d) = ac - bd +
+/// i ((a + b)(c + d) - ac - bd). Copied are all a of a tile, then all b, then all a + b.
 template <class T>
 [[gnu::always_inline]] inline void add_complex_tile(int k, const double* a, const double* b,
                                                     double* C, std::ptrdiff_t ldc, bool from_zero) {
   using Lanes = typename Wide<T::width>::Lanes;
-  Lanes sum[T::columns][T::vectors][3];
-#pragma GCC unroll 16
+  alignas(64) double sums[3][T::columns * T::rows];
+  for (int p = 0; p < 3; ++p)
+    add_tile<T>(k, a + std::ptrdiff_t(p) * k * T::rows, b + std::ptrdiff_t(p) * k * T::columns,
+                sums[p], T::rows, true);
   for (int j = 0; j < T::columns; ++j)
-#pragma GCC unroll 4
-    for (int v = 0; v < T::vectors; ++v)
-#pragma GCC unroll 3
-      for (int p = 0; p < 3; ++p) sum[j][v][p] = Lanes{};
-  for (int l = 0; l < k; ++l, a += 3 * T::rows, b += 3 * T::columns) {
-#pragma GCC unroll 3
-    for (int p = 0; p < 3; ++p) {
-      Lanes x[T::vectors];
-#pragma GCC unroll 4
-      for (int v = 0; v < T::vectors; ++v) load(x[v], a + p * T::rows + v * T::width);
-#pragma GCC unroll 16
-      for (int j = 0; j < T::columns; ++j) {
-#pragma GCC unroll 4
-        for (int v = 0; v < T::vectors; ++v) sum[j][v][p] += x[v] * b[3 * j + p];
-      }
-    }
-  }
-#pragma GCC unroll 16
-  for (int j = 0; j < T::columns; ++j)
-#pragma GCC unroll 4
     for (int v = 0; v < T::vectors; ++v) {
-      const Lanes re = sum[j][v][0] - sum[j][v][1];
-      const Lanes im = sum[j][v][2] - sum[j][v][0] - sum[j][v][1];
-      add_pairs<T::width>(re, im, C + 2 * (j * ldc + v * T::width), from_zero,
-                          std::make_integer_sequence<int, T::width>());
+      const int at = j * T::rows + v * T::width;
+      Lanes ac, bd, all;
+      load(ac, sums[0] + at);
+      load(bd, sums[1] + at);
+      load(all, sums[2] + at);
+      add_pairs<T::width>(Lanes(ac - bd), Lanes(all - ac - bd), C + 2 * (j * ldc + v * T::width),
+                          from_zero, std::make_integer_sequence<int, T::width>());
     }
 }
 

@@ -180,11 +180,13 @@ void subtract(int m, int n, int k, const Operand<Scalar>& A, const Operand<Scala
   }
 }
 
-/// What is done by one set of instructions. Shapes: a tile, and rows that are solved at once.
+/// What is done by one set of instructions. Shapes: tiles of real and of complex numbers, and
+/// rows that are solved at once.
 #define LITTORAL_INSTRUCTIONS(Set, Shapes, target)                                                 \
   template <class Scalar>                                                                          \
   struct Set {                                                                                     \
-    using Tile = Shapes::Tile;                                                                     \
+    using Tile =                                                                                   \
+        std::conditional_t<std::is_same_v<Scalar, double>, Shapes::Real, Shapes::Complex>;         \
     using Rows = Shapes::Rows;                                                                     \
     target static void add(int k, const double* a, const double* b, Scalar* C, std::ptrdiff_t ldc, \
                            bool from_zero) {                                                       \
@@ -205,23 +207,26 @@ void subtract(int m, int n, int k, const Operand<Scalar>& A, const Operand<Scala
 // Sixteen registers of two doubles, or thirty-two: sums and what they are made of.
 struct PlainShapes {
 #if defined(__aarch64__)
-  using Tile = dense::Tile<2, 4, 6>;
+  using Real = Tile<2, 4, 6>;
 #else
-  using Tile = dense::Tile<2, 2, 4>;
+  using Real = Tile<2, 2, 4>;
 #endif
-  using Rows = dense::Tile<2, 4, 0>;
+  using Complex = Real;
+  using Rows = Tile<2, 4, 0>;
 };
 LITTORAL_INSTRUCTIONS(Plain, PlainShapes, )
 
 #if defined(__x86_64__)
 struct Avx2Shapes {
-  using Tile = dense::Tile<4, 2, 6>;
-  using Rows = dense::Tile<4, 4, 0>;
+  using Real = Tile<4, 2, 6>;
+  using Complex = Real;
+  using Rows = Tile<4, 4, 0>;
 };
 LITTORAL_INSTRUCTIONS(Avx2, Avx2Shapes, [[gnu::target("avx2,fma")]])
 struct Avx512Shapes {
-  using Tile = dense::Tile<8, 2, 12>;
-  using Rows = dense::Tile<8, 4, 0>;
+  using Real = Tile<8, 2, 12>;
+  using Complex = Tile<8, 2, 6>;  // as fast, and less of it beyond the edges of blocks
+  using Rows = Tile<8, 4, 0>;
 };
 LITTORAL_INSTRUCTIONS(Avx512, Avx512Shapes, [[gnu::target(LITTORAL_AVX512 ",avx2,fma")]])
 #endif

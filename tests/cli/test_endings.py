@@ -12,7 +12,7 @@ import pytest
 from conftest import PROGRAM, Run, square, wait_for_handler
 
 CURVE = ("distance", "square.obj", "--sources", "curve.txt")
-SIDES = 800  # of `large`: what is interrupted must take longer than the longest wait
+SIDES = 1200  # of `large`: what is interrupted must take longer than the longest wait
 
 
 @pytest.fixture(scope="module")

@@ -75,49 +75,49 @@ void multiply(const SpRows& A, const VecX& x, VecX& y, const Task& task) {
   });
 }
 
-SpRows product(const SpRows& A, const SpRows& B, const Task& task) {
-  const std::size_t n = A.rows();
-  // Pieces of rows, each with a marker of its own over the columns of B.
+SpRows made_rows(Eigen::Index rows, Eigen::Index columns,
+                 const std::function<void(int, RowInMaking&)>& make, const Task& task) {
+  const auto n = std::size_t(rows);
+  // Pieces of rows, each with markers of its own over the columns.
   const std::size_t grain = std::max<std::size_t>(row_grain, (n + 31) / 32);
   struct Piece {
-    std::vector<int> to;
-    std::vector<double> value;
+    std::vector<int> columns;
+    std::vector<double> values;
   };
   std::vector<Piece> pieces((n + grain - 1) / grain);
-  SpRows C(A.rows(), B.cols());
-  int* begin = C.outerIndexPtr();
-  begin[0] = 0;
+  SpRows out(rows, columns);
+  int* const begin = out.outerIndexPtr();
   parallel_for(n, grain, [&](std::size_t first, std::size_t end) {
-    Piece piece;  // in nobody else's lines of memory
-    std::vector<int> place(B.cols(), -1);
+    RowInMaking row(columns);  // in nobody else's lines of memory
     for (std::size_t i = first; i < end; ++i) {
       if (i % 4096 == 0) stop_if_cancelled(task);
-      const int start = piece.to.size();
-      for (int e = A.outerIndexPtr()[i]; e < A.outerIndexPtr()[i + 1]; ++e) {
-        const int k = A.innerIndexPtr()[e];
-        const double a = A.valuePtr()[e];
-        for (int g = B.outerIndexPtr()[k]; g < B.outerIndexPtr()[k + 1]; ++g) {
-          int& at = place[B.innerIndexPtr()[g]];
-          if (at < start) {
-            at = piece.to.size();
-            piece.to.push_back(B.innerIndexPtr()[g]);
-            piece.value.push_back(0);
-          }
-          piece.value[at] += a * B.valuePtr()[g];
-        }
-      }
-      begin[i + 1] = int_size(piece.to) - start;
+      row.start_ = int_size(row.columns_);
+      make(int(i), row);
+      begin[i + 1] = int_size(row.columns_) - row.start_;
     }
-    pieces[first / grain] = std::move(piece);
+    pieces[first / grain] = {std::move(row.columns_), std::move(row.values_)};
   });
-  counts_to_begins(begin, C.rows());
-  C.resizeNonZeros(begin[C.rows()]);
+  counts_to_begins(begin, rows);
+  out.resizeNonZeros(begin[rows]);
+  // Copied as they are: Eigen wants columns ascending where it copies.
   parallel_for(pieces.size(), 1, [&](std::size_t p, std::size_t) {
-    std::copy(pieces[p].to.begin(), pieces[p].to.end(), C.innerIndexPtr() + begin[p * grain]);
-    std::copy(pieces[p].value.begin(), pieces[p].value.end(), C.valuePtr() + begin[p * grain]);
-    pieces[p] = {};
+    const Piece piece = std::move(pieces[p]);
+    std::copy(piece.columns.begin(), piece.columns.end(), out.innerIndexPtr() + begin[p * grain]);
+    std::copy(piece.values.begin(), piece.values.end(), out.valuePtr() + begin[p * grain]);
   });
-  return C;
+  return out;
+}
+
+SpRows product(const SpRows& A, const SpRows& B, const Task& task) {
+  const auto make = [&](int i, RowInMaking& row) {
+    for (int e = A.outerIndexPtr()[i]; e < A.outerIndexPtr()[i + 1]; ++e) {
+      const int k = A.innerIndexPtr()[e];
+      const double a = A.valuePtr()[e];
+      for (int g = B.outerIndexPtr()[k]; g < B.outerIndexPtr()[k + 1]; ++g)
+        row.at(B.innerIndexPtr()[g]) += a * B.valuePtr()[g];
+    }
+  };
+  return made_rows(A.rows(), B.cols(), make, task);
 }
 
 SymmetricRows::SymmetricRows(const SpMat& lower) : begin_(lower.cols() + 1, 0) {

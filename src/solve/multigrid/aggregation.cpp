@@ -1,10 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
-#include "base/index.h"
-#include "base/now_and_then.h"
 #include "base/parallel.h"
 #include "solve/multigrid/multigrid.h"
 
@@ -98,61 +95,23 @@ SpRows smoothed_aggregation(const SpRows& A, double strength, const Task& task) 
   const std::vector<char> strong = strong_couplings(A, strength);
   std::vector<int> group;
   const int n_groups = find_groups(A, strong, group, task);
-  // P = (1 - damping D^-1 A') P0, A' = A with weak couplings added to the diagonal D; some rows of
-  // it, entries as they come.
-  struct Part {
-    std::vector<int> columns;
-    std::vector<double> values;
-  };
-  const auto n = std::size_t(A.rows());
-  const std::size_t grain = std::max(aggregated_rows, (n + 7) / 8);
-  std::vector<Part> parts((n + grain - 1) / grain);
-  SpRows P(A.rows(), n_groups);
-  int* const ends = P.outerIndexPtr() + 1;  // within a part at first
-  parallel_for(n, grain, [&](std::size_t first, std::size_t last) {
-    std::vector<int> columns;  // in nobody else's lines of memory
-    std::vector<double> values;
-    std::vector<int> place(n_groups, -1);
-    for (int i = int(first); i < int(last); ++i) {
-      stop_now_and_then(i, task);
-      const int start = int_size(columns);
-      const auto at_group = [&](int g) -> double& {
-        if (place[g] < start) {
-          place[g] = int_size(columns);
-          columns.push_back(g);
-          values.push_back(0);
-        }
-        return values[place[g]];
-      };
-      if (group[i] >= 0) {
-        double D = 0;
-        at_group(group[i]) = 0;
-        for (int e = A.outerIndexPtr()[i]; e < A.outerIndexPtr()[i + 1]; ++e) {
-          const int j = A.innerIndexPtr()[e];
-          if (strong[e] && group[j] >= 0)
-            at_group(group[j]) += A.valuePtr()[e];
-          else
-            D += A.valuePtr()[e];
-        }
-        const double scale = D > 0 ? -damping / D : 0;
-        for (std::size_t k = start; k < values.size(); ++k) values[k] *= scale;
-        at_group(group[i]) += D > 0 ? 1 - damping : 1;
-      }
-      ends[i] = int_size(columns);
+  // P = (1 - damping D^-1 A') P0, A' = A with weak couplings added to the diagonal D.
+  const auto make = [&](int i, RowInMaking& row) {
+    if (group[i] < 0) return;
+    double D = 0;
+    row.at(group[i]);  // comes first
+    for (int e = A.outerIndexPtr()[i]; e < A.outerIndexPtr()[i + 1]; ++e) {
+      const int j = A.innerIndexPtr()[e];
+      if (strong[e] && group[j] >= 0)
+        row.at(group[j]) += A.valuePtr()[e];
+      else
+        D += A.valuePtr()[e];
     }
-    parts[first / grain] = {std::move(columns), std::move(values)};
-  });
-  // Copied as they are: Eigen wants columns ascending where it copies.
-  std::vector<int> begin(1, 0);
-  for (const Part& part : parts) begin.push_back(begin.back() + int_size(part.columns));
-  P.resizeNonZeros(begin.back());
-  parallel_for(n, grain, [&](std::size_t first, std::size_t last) {
-    const std::size_t at = first / grain;
-    for (std::size_t i = first; i < last; ++i) ends[i] += begin[at];
-    std::copy(parts[at].columns.begin(), parts[at].columns.end(), P.innerIndexPtr() + begin[at]);
-    std::copy(parts[at].values.begin(), parts[at].values.end(), P.valuePtr() + begin[at]);
-  });
-  return P;
+    const double scale = D > 0 ? -damping / D : 0;
+    for (double& entry : row.entries()) entry *= scale;
+    row.at(group[i]) += D > 0 ? 1 - damping : 1;
+  };
+  return made_rows(A.rows(), n_groups, make, task);
 }
 
 }  // namespace littoral

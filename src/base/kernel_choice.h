@@ -2,6 +2,8 @@
 // Kernels are written once and compiled for two instruction sets; the processor that runs the
 // program chooses.
 
+#include <algorithm>
+
 /// The first for every processor; the second where it has AVX2, on others not even compiled. Both
 /// give the same bits: without fused multiply-add, which rounds otherwise.
 #if defined(__x86_64__)
@@ -26,5 +28,19 @@ namespace littoral {
 
 /// What a processor may be asked for: tests compare the ways that this one has.
 enum class Instructions { plain, avx2, any };
+
+/// The most of what is allowed that this processor has together with fused multiply-add; `any`:
+/// AVX-512.
+inline Instructions fused_instructions([[maybe_unused]] Instructions allowed = Instructions::any) {
+#if defined(__x86_64__)
+  static const Instructions has = !__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")
+                                      ? Instructions::plain
+                                  : LITTORAL_HAS_AVX512 ? Instructions::any
+                                                        : Instructions::avx2;
+  return std::min(has, allowed);
+#else
+  return Instructions::plain;
+#endif
+}
 
 }  // namespace littoral

@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <utility>
 
 #include "base/index.h"
 #include "base/kernel_choice.h"
+#include "base/vector_lanes.h"
 #include "littoral/types.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -20,13 +22,129 @@ namespace {
 template <class Scalar>
 using Column = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
+/// The first n of some numbers, zeros to fill, and back.
+template <class Lanes>
+inline void load_first(Lanes& to, const double* from, int n) {
+  to = Lanes{};
+  for (int i = 0; i < n; ++i) to[i] = from[i];
+}
+template <class Lanes>
+inline void store_first(double* to, const Lanes& from, int n) {
+  for (int i = 0; i < n; ++i) to[i] = from[i];
+}
+#ifdef LITTORAL_AVX2
+using Four = Wide<4>::Lanes;
+using Eight = Wide<8>::Lanes;
+/// A mask of the first k of four doubles.
+LITTORAL_AVX2 inline __m256i first_of_four(int k) {
+  alignas(32) static constexpr long long bits[8] = {-1, -1, -1, -1, 0, 0, 0, 0};
+  return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(bits + 4 - k));
+}
+LITTORAL_AVX2 inline void load_first(Four& to, const double* from, int n) {
+  to = Four(_mm256_maskload_pd(from, first_of_four(n)));
+}
+LITTORAL_AVX2 inline void store_first(double* to, const Four& from, int n) {
+  _mm256_maskstore_pd(to, first_of_four(n), __m256d(from));
+}
+LITTORAL_WITH_AVX512 inline void load_first(Eight& to, const double* from, int n) {
+  to = Eight(_mm512_maskz_loadu_pd(static_cast<__mmask8>((1u << n) - 1), from));
+}
+LITTORAL_WITH_AVX512 inline void store_first(double* to, const Eight& from, int n) {
+  _mm512_mask_storeu_pd(to, static_cast<__mmask8>((1u << n) - 1), __m512d(from));
+}
+#endif
+
+/// Lanes that are whole, or the last of a column: so many of them.
+template <int width>
+struct Whole {
+  using Lanes = typename Wide<width>::Lanes;
+  [[gnu::always_inline]] void load(Lanes& to, const double* from) const {
+    littoral::load(to, from);
+  }
+  [[gnu::always_inline]] void store(double* to, const Lanes& from) const {
+    littoral::store(to, from);
+  }
+};
+template <int width>
+struct First {
+  using Lanes = typename Wide<width>::Lanes;
+  int n;
+  [[gnu::always_inline]] void load(Lanes& to, const double* from) const { load_first(to, from, n); }
+  [[gnu::always_inline]] void store(double* to, const Lanes& from) const {
+    store_first(to, from, n);
+  }
+};
+
+/// Puts s to y, or adds or subtracts it there.
+template <Into into, class Some, class Lanes>
+[[gnu::always_inline]] inline void put(double* y, const Lanes& s, const Some& some) {
+  Lanes before{};
+  if constexpr (into != Into::replaced) some.load(before, y);
+  if constexpr (into == Into::replaced) some.store(y, s);
+  if constexpr (into == Into::added) some.store(y, Lanes(before + s));
+  if constexpr (into == Into::subtracted) some.store(y, Lanes(before - s));
+}
+
+/// Products of complex numbers as pairs: what real parts gave, and, pairs swapped and turned, what
+/// imaginary parts did.
+template <class Lanes, int... i>
+[[gnu::always_inline]] inline void combine(Lanes& re, const Lanes& im,
+                                           std::integer_sequence<int, i...>) {
+  constexpr int width = sizeof...(i);
+  const Lanes swapped = __builtin_shufflevector(im, im, (i ^ 1)...);
+  re = __builtin_shufflevector(Lanes(re - swapped), Lanes(re + swapped), (i + i % 2 * width)...);
+}
+
+/// Some rows of A x, as many as fill `vectors` registers of `width` doubles.
+template <Into into, int width, int vectors, class Some>
+[[gnu::always_inline]] inline void some_rows(const Some& some, int n, const double* A,
+                                             std::ptrdiff_t lda, const double* x, double* y) {
+  using Lanes = typename Wide<width>::Lanes;
+  Lanes s[vectors] = {};
+  for (int j = 0; j < n; ++j, A += lda)
+#pragma GCC unroll 2
+    for (int v = 0; v < vectors; ++v) {
+      Lanes a;
+      some.load(a, A + v * width);
+      s[v] += a * x[j];
+    }
+  for (int v = 0; v < vectors; ++v) put<into>(y + v * width, s[v], some);
+}
+template <Into into, int width, int vectors, class Some>
+[[gnu::always_inline]] inline void some_rows(const Some& some, int n, const Complex* A,
+                                             std::ptrdiff_t lda, const Complex* x, Complex* y) {
+  using Lanes = typename Wide<width>::Lanes;
+  Lanes re[vectors] = {}, im[vectors] = {};
+  for (int j = 0; j < n; ++j, A += lda)
+#pragma GCC unroll 2
+    for (int v = 0; v < vectors; ++v) {
+      Lanes a;
+      some.load(a, reinterpret_cast<const double*>(A) + v * width);
+      re[v] += a * x[j].real();
+      im[v] += a * x[j].imag();
+    }
+  for (int v = 0; v < vectors; ++v) {
+    combine(re[v], im[v], std::make_integer_sequence<int, width>());
+    put<into>(reinterpret_cast<double*>(y) + v * width, re[v], some);
+  }
+}
+
+/// Two registers of rows at a time, and the rest by one.
+template <Into into, int width, class Scalar>
+[[gnu::always_inline]] inline void times_of(int m, int n, const Scalar* A, int lda, const Scalar* x,
+                                            Scalar* y) {
+  constexpr int doubles = int(sizeof(Scalar)) / int(sizeof(double)), rows = width / doubles;
+  int i = 0;
+  for (; i + 2 * rows <= m; i += 2 * rows)
+    some_rows<into, width, 2>(Whole<width>{}, n, A + i, lda, x, y + i);
+  for (; i < m; i += rows)
+    some_rows<into, width, 1>(First<width>{doubles * std::min(rows, m - i)}, n, A + i, lda, x,
+                              y + i);
+}
+
 template <Into into, class Scalar>
 void times_plain(int m, int n, const Scalar* A, int lda, const Scalar* x, Scalar* y) {
-  Eigen::Map<Column<Scalar>> out(y, m);
-  constexpr double sign = into == Into::subtracted ? -1 : 1;
-  if (into == Into::replaced) out.setZero();
-  for (int j = 0; j < n; ++j, A += lda)
-    out += (sign * x[j]) * Eigen::Map<const Column<Scalar>>(A, m);
+  times_of<into, 2>(m, n, A, lda, x, y);
 }
 
 template <class Scalar>
@@ -37,174 +155,20 @@ void subtract_adjoint_plain(int m, int n, const Scalar* A, int lda, const Scalar
 
 #ifdef LITTORAL_AVX2
 
-bool has_avx2() {
-  static const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  return has;
+template <Into into, class Scalar>
+LITTORAL_AVX2 void times_by_four(int m, int n, const Scalar* A, int lda, const Scalar* x,
+                                 Scalar* y) {
+  times_of<into, 4>(m, n, A, lda, x, y);
 }
-
-/// A mask of the first k of four doubles.
-LITTORAL_AVX2 inline __m256i first_of_four(int k) {
-  alignas(32) static constexpr long long bits[8] = {-1, -1, -1, -1, 0, 0, 0, 0};
-  return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(bits + 4 - k));
+template <Into into, class Scalar>
+LITTORAL_WITH_AVX512 void times_by_eight(int m, int n, const Scalar* A, int lda, const Scalar* x,
+                                         Scalar* y) {
+  times_of<into, 8>(m, n, A, lda, x, y);
 }
 
 LITTORAL_AVX2 inline double sum(__m256d v) {
   const __m128d pair = _mm_add_pd(_mm256_castpd256_pd128(v), _mm256_extractf128_pd(v, 1));
   return _mm_cvtsd_f64(_mm_add_sd(pair, _mm_unpackhi_pd(pair, pair)));
-}
-
-/// Puts s to y, or adds or subtracts it there.
-template <Into into>
-LITTORAL_AVX2 inline void put(double* y, __m256d s) {
-  if constexpr (into == Into::added) s = _mm256_add_pd(_mm256_loadu_pd(y), s);
-  if constexpr (into == Into::subtracted) s = _mm256_sub_pd(_mm256_loadu_pd(y), s);
-  _mm256_storeu_pd(y, s);
-}
-template <Into into>
-LITTORAL_AVX2 inline void put(double* y, __m256i mask, __m256d s) {
-  if constexpr (into == Into::added) s = _mm256_add_pd(_mm256_maskload_pd(y, mask), s);
-  if constexpr (into == Into::subtracted) s = _mm256_sub_pd(_mm256_maskload_pd(y, mask), s);
-  _mm256_maskstore_pd(y, mask, s);
-}
-
-template <Into into>
-LITTORAL_AVX2 void times_by_four(int m, int n, const double* A, int lda, const double* x,
-                                 double* y) {
-  int i = 0;
-  for (; i + 8 <= m; i += 8) {
-    __m256d s = _mm256_setzero_pd(), t = s;
-    const double* a = A + i;
-    for (int j = 0; j < n; ++j, a += lda) {
-      const __m256d xj = _mm256_broadcast_sd(x + j);
-      s = _mm256_fmadd_pd(_mm256_loadu_pd(a), xj, s);
-      t = _mm256_fmadd_pd(_mm256_loadu_pd(a + 4), xj, t);
-    }
-    put<into>(y + i, s);
-    put<into>(y + i + 4, t);
-  }
-  for (; i < m; i += 4) {
-    const __m256i mask = first_of_four(std::min(4, m - i));
-    __m256d s = _mm256_setzero_pd();
-    const double* a = A + i;
-    for (int j = 0; j < n; ++j, a += lda)
-      s = _mm256_fmadd_pd(_mm256_maskload_pd(a, mask), _mm256_broadcast_sd(x + j), s);
-    put<into>(y + i, mask, s);
-  }
-}
-
-LITTORAL_AVX2 inline __m256d combined(__m256d re, __m256d im) {
-  return _mm256_addsub_pd(re, _mm256_permute_pd(im, 5));
-}
-
-/// The same for complex numbers as pairs: y is a x's real part plus a's swapped pairs, turned, by
-/// its imaginary part.
-template <Into into>
-LITTORAL_AVX2 void times_by_four(int m, int n, const Complex* A, int lda, const Complex* x,
-                                 Complex* y) {
-  const auto* in = reinterpret_cast<const double*>(x);
-  int i = 0;
-  for (; i + 4 <= m; i += 4) {
-    __m256d s = _mm256_setzero_pd(), s_im = s, t = s, t_im = s;
-    const auto* a = reinterpret_cast<const double*>(A + i);
-    for (int j = 0; j < n; ++j, a += 2 * index(lda)) {
-      const __m256d re = _mm256_broadcast_sd(in + 2 * j), im = _mm256_broadcast_sd(in + 2 * j + 1);
-      const __m256d u = _mm256_loadu_pd(a), v = _mm256_loadu_pd(a + 4);
-      s = _mm256_fmadd_pd(u, re, s);
-      s_im = _mm256_fmadd_pd(u, im, s_im);
-      t = _mm256_fmadd_pd(v, re, t);
-      t_im = _mm256_fmadd_pd(v, im, t_im);
-    }
-    auto* out = reinterpret_cast<double*>(y + i);
-    put<into>(out, combined(s, s_im));
-    put<into>(out + 4, combined(t, t_im));
-  }
-  for (; i < m; i += 2) {
-    const __m256i mask = first_of_four(2 * std::min(2, m - i));
-    __m256d s = _mm256_setzero_pd(), s_im = s;
-    const auto* a = reinterpret_cast<const double*>(A + i);
-    for (int j = 0; j < n; ++j, a += 2 * index(lda)) {
-      const __m256d u = _mm256_maskload_pd(a, mask);
-      s = _mm256_fmadd_pd(u, _mm256_broadcast_sd(in + 2 * j), s);
-      s_im = _mm256_fmadd_pd(u, _mm256_broadcast_sd(in + 2 * j + 1), s_im);
-    }
-    put<into>(reinterpret_cast<double*>(y + i), mask, combined(s, s_im));
-  }
-}
-
-bool has_avx512() {
-  static const bool has = has_avx2() && LITTORAL_HAS_AVX512;
-  return has;
-}
-
-template <Into into>
-LITTORAL_WITH_AVX512 inline void put(double* y, __mmask8 mask, __m512d s) {
-  if constexpr (into == Into::added) s = _mm512_add_pd(_mm512_maskz_loadu_pd(mask, y), s);
-  if constexpr (into == Into::subtracted) s = _mm512_sub_pd(_mm512_maskz_loadu_pd(mask, y), s);
-  _mm512_mask_storeu_pd(y, mask, s);
-}
-
-/// Sixteen rows of A x at a time, and the rest by eight.
-template <Into into>
-LITTORAL_WITH_AVX512 void times_by_eight(int m, int n, const double* A, int lda, const double* x,
-                                         double* y) {
-  int i = 0;
-  for (; i + 16 <= m; i += 16) {
-    __m512d s = _mm512_setzero_pd(), t = s;
-    const double* a = A + i;
-    for (int j = 0; j < n; ++j, a += lda) {
-      const __m512d xj = _mm512_set1_pd(x[j]);
-      s = _mm512_fmadd_pd(_mm512_loadu_pd(a), xj, s);
-      t = _mm512_fmadd_pd(_mm512_loadu_pd(a + 8), xj, t);
-    }
-    put<into>(y + i, 0xff, s);
-    put<into>(y + i + 8, 0xff, t);
-  }
-  for (; i < m; i += 8) {
-    const auto mask = static_cast<__mmask8>((1u << std::min(8, m - i)) - 1);
-    __m512d s = _mm512_setzero_pd();
-    const double* a = A + i;
-    for (int j = 0; j < n; ++j, a += lda)
-      s = _mm512_fmadd_pd(_mm512_maskz_loadu_pd(mask, a), _mm512_set1_pd(x[j]), s);
-    put<into>(y + i, mask, s);
-  }
-}
-
-// By a mask of all, as what GCC makes of the plain permutation is warned about.
-LITTORAL_WITH_AVX512 inline __m512d combined(__m512d re, __m512d im) {
-  return _mm512_fmaddsub_pd(re, _mm512_set1_pd(1), _mm512_maskz_permute_pd(0xff, im, 0x55));
-}
-
-template <Into into>
-LITTORAL_WITH_AVX512 void times_by_eight(int m, int n, const Complex* A, int lda, const Complex* x,
-                                         Complex* y) {
-  const auto* in = reinterpret_cast<const double*>(x);
-  int i = 0;
-  for (; i + 8 <= m; i += 8) {
-    __m512d s = _mm512_setzero_pd(), s_im = s, t = s, t_im = s;
-    const auto* a = reinterpret_cast<const double*>(A + i);
-    for (int j = 0; j < n; ++j, a += 2 * index(lda)) {
-      const __m512d re = _mm512_set1_pd(in[2 * j]), im = _mm512_set1_pd(in[2 * j + 1]);
-      const __m512d u = _mm512_loadu_pd(a), v = _mm512_loadu_pd(a + 8);
-      s = _mm512_fmadd_pd(u, re, s);
-      s_im = _mm512_fmadd_pd(u, im, s_im);
-      t = _mm512_fmadd_pd(v, re, t);
-      t_im = _mm512_fmadd_pd(v, im, t_im);
-    }
-    auto* out = reinterpret_cast<double*>(y + i);
-    put<into>(out, 0xff, combined(s, s_im));
-    put<into>(out + 8, 0xff, combined(t, t_im));
-  }
-  for (; i < m; i += 4) {
-    const auto mask = static_cast<__mmask8>((1u << 2 * std::min(4, m - i)) - 1);
-    __m512d s = _mm512_setzero_pd(), s_im = s;
-    const auto* a = reinterpret_cast<const double*>(A + i);
-    for (int j = 0; j < n; ++j, a += 2 * index(lda)) {
-      const __m512d u = _mm512_maskz_loadu_pd(mask, a);
-      s = _mm512_fmadd_pd(u, _mm512_set1_pd(in[2 * j]), s);
-      s_im = _mm512_fmadd_pd(u, _mm512_set1_pd(in[2 * j + 1]), s_im);
-    }
-    put<into>(reinterpret_cast<double*>(y + i), mask, combined(s, s_im));
-  }
 }
 
 /// Up to four columns at once.
@@ -275,8 +239,9 @@ template <Into into, class Scalar>
 void times(int m, int n, const Scalar* A, int lda, const Scalar* x, Scalar* y,
            [[maybe_unused]] Instructions allowed) {
 #ifdef LITTORAL_AVX2
-  if (has_avx512() && allowed == Instructions::any) return times_by_eight<into>(m, n, A, lda, x, y);
-  if (has_avx2() && allowed != Instructions::plain) return times_by_four<into>(m, n, A, lda, x, y);
+  const Instructions has = fused_instructions(allowed);
+  if (has == Instructions::any) return times_by_eight<into>(m, n, A, lda, x, y);
+  if (has == Instructions::avx2) return times_by_four<into>(m, n, A, lda, x, y);
 #endif
   times_plain<into>(m, n, A, lda, x, y);
 }
@@ -285,7 +250,7 @@ template <class Scalar>
 void subtract_adjoint(int m, int n, const Scalar* A, int lda, const Scalar* y, Scalar* x,
                       [[maybe_unused]] Instructions allowed) {
 #ifdef LITTORAL_AVX2
-  if (has_avx2() && allowed != Instructions::plain)
+  if (fused_instructions(allowed) != Instructions::plain)
     return subtract_adjoint_by_four(m, n, A, lda, y, x);
 #endif
   subtract_adjoint_plain(m, n, A, lda, y, x);

@@ -250,10 +250,9 @@ const Kernels<Scalar>& kernels([[maybe_unused]] Instructions allowed) {
 #if defined(__x86_64__)
   static constexpr auto avx2 = Kernels<Scalar>::template of<Avx2<Scalar>>();
   static constexpr auto avx512 = Kernels<Scalar>::template of<Avx512<Scalar>>();
-  static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  static const bool has_avx512 = has_avx2 && LITTORAL_HAS_AVX512;
-  if (has_avx512 && allowed == Instructions::any) return avx512;
-  if (has_avx2 && allowed != Instructions::plain) return avx2;
+  const Instructions has = fused_instructions(allowed);
+  if (has == Instructions::any) return avx512;
+  if (has == Instructions::avx2) return avx2;
 #endif
   return plain;
 }

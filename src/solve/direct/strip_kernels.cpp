@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/index.h"
+#include "base/kernel_choice.h"
 #include "solve/direct/strip_solve.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -73,10 +74,7 @@ namespace {
 
 constexpr int quads = width / 4;
 
-bool strips_by_avx2() {
-  static const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  return has;
-}
+bool strips_by_avx2() { return fused_instructions() != Instructions::plain; }
 
 /// Sums for some rows of a strip, quad by quad. They stay in registers only if all subscripts are
 /// constants, which loops are not yet where compilers decide that.

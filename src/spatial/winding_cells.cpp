@@ -247,11 +247,7 @@ VecX WindingNumber::at(const MatX3& queries, const Task& task) const {
   VecX values(queries.rows());
   const std::vector<int> order = morton_order(queries);
   const auto sum_one_by_one = [&](const std::vector<int>& some) {
-    parallel_for(some.size(), most_a_part, [&](std::size_t begin, std::size_t end) {
-      task.checkpoint(double(begin) / double(order.size()));
-      for (std::size_t at = begin; at < end; ++at)
-        values[some[at]] = (*this)(queries.row(some[at]));
-    });
+    visit_in_order(some, order.size(), task, [&](int i) { values[i] = (*this)(queries.row(i)); });
   };
   if (clusters_.empty()) {
     sum_one_by_one(order);

@@ -7,7 +7,6 @@
 #include "api/space/space_input.h"
 #include "base/index.h"
 #include "base/option_table.h"
-#include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "littoral/error.h"
 #include "spatial/morton_order.h"
@@ -22,10 +21,7 @@ namespace {
 template <class Visit>
 void visit_queries(const MatX3& queries, const Task& task, const Visit& visit) {
   const std::vector<int> order = morton_order(queries);
-  parallel_for(order.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    task.checkpoint(double(begin) / double(order.size()));
-    for (std::size_t at = begin; at < end; ++at) visit(order[at]);
-  });
+  visit_in_order(order, order.size(), task, visit);
 }
 
 }  // namespace

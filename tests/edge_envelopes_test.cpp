@@ -6,6 +6,8 @@
 
 #include <random>
 
+#include "window_blocks.h"
+
 namespace littoral {
 namespace {
 
@@ -30,7 +32,7 @@ TEST(EdgeEnvelopes, OfTwoPointsTheNearerMayBeSoInTheMiddleOnly) {
   // p from the middle: sqrt(p^2 + 1) = sqrt(p^2 + .01) + .5, squared: .74 = sqrt(p^2 + .01).
   const double r = 0.74, p = std::sqrt(r * r - 0.01);
   for (const bool far_first : {true, false}) {
-    EdgeEnvelopes all;
+    EdgeEnvelopes all(test_memory());
     WindowList list;
     const Window far = point_window(0, 4, 2, -1, 0), near = point_window(0, 4, 2, -0.1, 0.5);
     all.insert(list, 4, far_first ? far : near);
@@ -52,7 +54,7 @@ TEST(EdgeEnvelopes, AgainstTheLeastOfAllAtEveryPoint) {
   std::uniform_real_distribution<double> u(0, 1);
   const double length = 3;
   for (int round = 0; round < 300; ++round) {
-    EdgeEnvelopes all;
+    EdgeEnvelopes all(test_memory());
     WindowList list;
     std::vector<Window> offered;
     for (int i = 0; i < 25; ++i) {
@@ -100,7 +102,7 @@ TEST(EdgeEnvelopes, BatchesAsOneByOne) {
   std::uniform_real_distribution<double> u(0, 1);
   const double length = 3;
   for (int round = 0; round < 300; ++round) {
-    EdgeEnvelopes all;
+    EdgeEnvelopes all(test_memory());
     WindowList lists[2];
     for (int n = 0; n < 4; ++n) {
       WindowBlock batch;
@@ -110,7 +112,7 @@ TEST(EdgeEnvelopes, BatchesAsOneByOne) {
                      b1 = std::min(length, b0 + length * 0.3 * u(random));
         Window w = point_window(b0, b1, 5 * u(random) - 1, -2 * u(random), i % 3 ? 1 : u(random));
         w.source = 8 * n + i;
-        batch.push_back(w);
+        test_blocks().push_back(batch, w);
         all.insert(lists[1], length, w);
         all.settle(batch, length);
       }
@@ -139,7 +141,7 @@ TEST(EdgeEnvelopes, BatchesAsOneByOne) {
 }
 
 TEST(EdgeEnvelopes, TheSameWindowAgainIsNotTaken) {
-  EdgeEnvelopes all;
+  EdgeEnvelopes all(test_memory());
   WindowList list;
   const Window w = point_window(0.5, 2, 1, -1, 0.25);
   EXPECT_EQ(all.insert(list, 3, w), 1.25);

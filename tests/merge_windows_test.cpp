@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "geodesic_helpers.h"
 #include "methods/geodesic/window_kernels.h"
+#include "window_blocks.h"
 
 namespace littoral {
 namespace {
@@ -31,7 +32,7 @@ Window rays(double x, double y, double behind, double b0, double b1) {
 
 WindowBlock block_of(const std::vector<Window>& windows) {
   WindowBlock block;
-  for (const Window& w : windows) block.push_back(w);
+  for (const Window& w : windows) test_blocks().push_back(block, w);
   return block;
 }
 

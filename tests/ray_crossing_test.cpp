@@ -13,6 +13,7 @@
 #include <random>
 
 #include "test_meshes.h"
+#include "window_blocks.h"
 
 namespace littoral {
 namespace {
@@ -20,7 +21,7 @@ namespace {
 /// The lower envelope on an edge of points below it, some with parallel rays among them.
 WindowBlock crossing_windows(std::mt19937& random, double length, int n) {
   std::uniform_real_distribution<double> u(0, 1);
-  EdgeEnvelopes all;
+  EdgeEnvelopes all(test_memory());
   WindowList list;
   const bool same_behind = random() % 2 == 0;
   for (int i = 0; i < n; ++i) {
@@ -105,7 +106,7 @@ TEST(RayCrossing, KernelsOfAnyWidthGiveTheSameBits) {
       const WindowKernels& kernels = plain ? plain_window_kernels : window_kernels();
       found[plain].push_back(kernels.least(windows, std::size_t(first), std::size_t(last)));
       found[plain].push_back(kernels.all_whole(windows, t.ends));
-      WindowBlock batch;
+      WindowBlock batch = test_blocks().take(std::size_t(last - first));
       rays.put(first, last, t.exit.turned(), 3, batch);
       for (std::size_t i = 0; i < batch.size(); ++i) {
         const Window w = batch[i];
@@ -178,9 +179,9 @@ TEST(RayCrossing, KernelsCutNeighboursWhereComparingThemDoes) {
         continue;
       const Window o = rays.left_as(before, 0), w = rays.left_as(after, 0);
       WindowBlock batch, both;
-      batch.push_back(o);
-      batch.push_back(w);
-      EdgeEnvelopes envelopes;
+      test_blocks().push_back(batch, o);
+      test_blocks().push_back(batch, w);
+      EdgeEnvelopes envelopes(test_memory());
       ASSERT_TRUE(envelopes.settle(batch, t.ends.length)) << round;
       if (c.meets[i] == apart) {
         ++n_apart;
@@ -191,6 +192,7 @@ TEST(RayCrossing, KernelsCutNeighboursWhereComparingThemDoes) {
       if (!(c.cut[i] - o.b0 > t.ends.narrow())) continue;  // left to the comparison
       if (c.follows[i]) {                                  // what is put is cut there
         ++n_put;
+        test_blocks().make_room(both, 2);
         rays.put(i, i + 2, t.exit.turned(), 7, both);
         EXPECT_EQ(both[0].b1, c.cut[i]);
         EXPECT_EQ(both[0].d1, c.cut_first[i]);
@@ -238,7 +240,7 @@ TEST(RayCrossing, WholeAreWindowsThatNothingChanges) {
         w.y = -1 - 0.01 * std::abs(i - 4);
         w.page = 1;
         w.measure_ends();
-        windows.push_back(w);
+        test_blocks().push_back(windows, w);
       }
       const EdgeEnds far(2, 2, 1);
       EXPECT_TRUE(kernels->all_whole(windows, far));

@@ -59,7 +59,7 @@ TEST(WaveQueue, TakesTogetherWhatIsDueBeforeAnyOfItSendsSomething) {
       EXPECT_EQ(queue.least(), simple.least());
       std::vector<WaveQueue::Entry> taken;
       std::vector<int> ids;
-      queue.take_wave([&](const WaveQueue::Entry& entry) {
+      queue.take_wave(queue.least(), queue.until(), [&](const WaveQueue::Entry& entry) {
         taken.push_back(entry);
         ids.push_back(entry.id);
         return true;
@@ -84,7 +84,7 @@ TEST(WaveQueue, KeepsWhatIsNotTaken) {
   std::vector<int> seen;
   while (!queue.empty()) {
     int n = 0;
-    queue.take_wave([&](const WaveQueue::Entry& entry) {
+    queue.take_wave(queue.least(), queue.until(), [&](const WaveQueue::Entry& entry) {
       if (n == 3) return false;
       ++n;
       seen.push_back(entry.id);

@@ -8,6 +8,7 @@
 
 #include "base/index.h"
 #include "methods/geodesic/window_kernels.h"
+#include "methods/geodesic/window_memory.h"
 
 namespace littoral {
 
@@ -27,6 +28,8 @@ struct alignas(32) WindowList {
 /// of these for every thread that adds to lists.
 class EdgeEnvelopes {
  public:
+  explicit EdgeEnvelopes(WindowMemory& memory) : spare(memory) {}
+
   /// Takes what is nearest of the window on an edge of the given length; the least distance there,
   /// +inf if nothing is left of it.
   double insert(WindowList& list, double length, const Window& w) {
@@ -186,10 +189,8 @@ class EdgeEnvelopes {
       at = beyond(all, WindowBlock::b1, w.b0, true);
       if (at < n && all.column(WindowBlock::b0)[at] < w.b1)
         return replace(all, compare(w, all, at, length), w, narrow_share * length);
-      all.shift(at, 1);
-    } else {
-      all.resize(n + 1);
     }
+    spare.insert(all, at, 1);
     all.set(at, w);
     ++n_taken_;
     return w.least();
@@ -382,7 +383,7 @@ class EdgeEnvelopes {
     const std::ptrdiff_t more =
         std::ptrdiff_t(made_.size()) - std::ptrdiff_t(range.last - range.first);
     if (more > 0)
-      all.shift(range.last, more);
+      spare.insert(all, range.last, std::size_t(more));
     else if (more < 0)
       all.shift(std::size_t(std::ptrdiff_t(range.last) + more), more);
     for (std::size_t i = 0; i < made_.size(); ++i) all.set(range.first + i, made_[i]);

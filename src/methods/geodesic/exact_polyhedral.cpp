@@ -4,7 +4,6 @@
 #include <array>
 #include <deque>
 #include <memory>
-#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -22,10 +21,11 @@ namespace {
 
 /// How many triangles paths run straight through after each time the limit on windows is met.
 constexpr std::array<int, 4> straight = {Window::deep + 1, 16, 4, 0};
-constexpr double most_held = 3e7;      // windows, 2 GB
-constexpr double many_held = 1e6;      // windows, from which on they are forgotten sooner
-constexpr double most_together = 3e4;  // windows
-constexpr double worth_threads = 100;  // windows
+constexpr double most_held = 3e7;       // windows, 2 GB
+constexpr double many_held = 5e5;       // windows, from which on they are forgotten sooner
+constexpr double most_together = 3e4;   // windows
+constexpr double worth_threads = 300;   // windows, of this and the next waves
+constexpr std::size_t own_lines = 128;  // bytes: no line of a cache holds two of such
 
 class Front {
  public:
@@ -37,18 +37,19 @@ class Front {
   void run(const std::vector<PolyhedralStart>& starts, const Task& task) {
     double steps = 0, next_check = 0;
     for (std::size_t started = 0;;) {
-      while (started < starts.size() && (queue_.empty() || starts[started].value <= queue_.least()))
+      now_ = least();
+      while (started < starts.size() && starts[started].value <= now_) {
         begin(starts[started++]);
-      if (queue_.empty()) break;
-      now_ = queue_.least();
-      const double load = collect();
-      if (together_.empty()) continue;
-      steps += double(together_.size());
+        now_ = least();
+      }
+      if (now_ == infinity) break;
+      go_on();
+      if (n_together_ == 0) continue;
+      steps += double(n_together_);
       if (steps + windows() > next_check) {
         task.checkpoint(double(n_reached_) / T_.n_vertices);
         next_check = steps + windows() + 4096;
       }
-      go_on(load);
       const double n_held = held();
       is_crowded_ = n_held > many_held;
       const bool full = windows() > budget_ || n_held > most_held * double(1 + relaxed_);
@@ -79,6 +80,16 @@ class Front {
     double when;  // the front has passed the edge, as far as is known: perhaps later than that
     int edge;
   };
+  /// What is on its way of a share of edges and vertices. Threads write to these side by side.
+  struct alignas(own_lines) Share {
+    WaveQueue queue;  // ids of edges with open windows; -1 - vertex
+    std::deque<Passing> watched;
+  };
+  /// What one thread has at hand.
+  struct alignas(own_lines) Part {
+    std::vector<int> together;  // of the queues of its shares: what goes on now
+    std::vector<RayCrossing::Batch*> to_take;
+  };
 
   double held() const {
     double sum = 0;
@@ -86,11 +97,7 @@ class Front {
     return sum;
   }
 
-  /// All together keep as many windows in spare as one would.
-  void add_member() {
-    crew_.push_back(std::make_unique<RayCrossing>(search_));
-    crew_.back()->envelopes.spare.most_room /= most_parts_;
-  }
+  void add_member() { crew_.push_back(std::make_unique<RayCrossing>(search_)); }
 
   void begin(const PolyhedralStart& start) {
     if (start.vertex < 0) {
@@ -112,58 +119,65 @@ class Front {
     return true;
   }
 
-  /// Takes from the queue what goes on together. About how many windows that are.
-  double collect() {
-    together_.clear();
-    const std::size_t most = std::size_t(most_together / windows_each_) + 1;
-    queue_.take_wave([&](const WaveQueue::Entry& entry) {
-      if (together_.size() >= most) return false;
-      const bool is_old = entry.id < 0 && entry.key > search_.distance[-1 - entry.id];
-      if (!is_old) together_.push_back(entry.id);
-      return true;
-    });
-    sort_by_share();
-    return double(together_.size()) * windows_each_;
+  double least() const {
+    double least = infinity;
+    for (const Share& share : shares_) least = std::min(least, share.queue.least());
+    return least;
   }
-  /// Edges go on by the threads that put their windows away: these are in their caches.
-  void sort_by_share() {
-    const auto share_of = [](int id) { return RayCrossing::share_of(id < 0 ? -1 - id : id); };
-    share_begin_.fill(0);
-    for (const int id : together_) ++share_begin_[share_of(id) + 1];
-    std::partial_sum(share_begin_.begin(), share_begin_.end(), share_begin_.begin());
-    auto next = share_begin_;
-    sorted_.resize(together_.size());
-    for (const int id : together_) sorted_[next[share_of(id)]++] = id;
-    std::swap(sorted_, together_);
+  Share& share_of(int id) { return shares_[RayCrossing::share_of(id)]; }
+  static std::size_t first_share(std::size_t part, std::size_t parts) {
+    return part * RayCrossing::n_shares / parts;
   }
 
-  /// Lets all that was collected go on. Nobody sees what another of them sends: so they can do it
-  /// at the same time, and the answer is the same whether they do or not.
-  void go_on(double load) {
-    const std::size_t parts = load > worth_threads ? most_parts_ : 1;
+  /// Lets all go on that is due before anything of it changes others by much. Nobody sees what
+  /// another of them sends: so they can do it at the same time, and the answer is the same whether
+  /// they do or not. Edges go on by the threads that put their windows away, in whose caches these
+  /// are.
+  void go_on() {
+    double end = infinity;
+    std::size_t n_soon = 0;
+    for (Share& share : shares_) {
+      end = std::min(end, share.queue.until());
+      n_soon += share.queue.n_soon();
+    }
+    const std::size_t most = std::size_t(most_together / windows_each_) / RayCrossing::n_shares + 1;
+    const bool worth = double(n_soon) * windows_each_ > worth_threads;
+    const std::size_t parts = worth ? most_parts_ : 1;
     while (crew_.size() < parts) add_member();
     threads_.run(parts, [&](std::size_t part) {
       RayCrossing& member = *crew_[part];
       member.clear();
-      const std::size_t end = share_begin_[first_share(part + 1, parts)];
-      for (std::size_t i = share_begin_[first_share(part, parts)]; i < end; ++i) {
+      std::vector<int>& together = parts_[part].together;
+      together.clear();
+      for (std::size_t s = first_share(part, parts); s < first_share(part + 1, parts); ++s) {
+        const std::size_t most_here = together.size() + most;
+        shares_[s].queue.take_wave(now_, end, [&](const WaveQueue::Entry& entry) {
+          if (together.size() >= most_here) return false;
+          const bool is_old = entry.id < 0 && entry.key > search_.distance[-1 - entry.id];
+          if (!is_old) together.push_back(entry.id);
+          return true;
+        });
+      }
+      for (std::size_t i = 0; i < together.size(); ++i) {
         for (int step = 0; step < RayCrossing::n_fetch_steps; ++step) {
           const std::size_t ahead = i + std::size_t(RayCrossing::n_fetch_steps - step);
-          if (ahead < end) fetch(member, together_[ahead], step);
+          if (ahead < together.size()) fetch(member, together[ahead], step);
         }
-        if (together_[i] < 0)
-          member.leave_vertex(-1 - together_[i]);
+        if (together[i] < 0)
+          member.leave_vertex(-1 - together[i]);
         else
-          member.go_on(together_[i]);
+          member.go_on(together[i]);
       }
     });
     double n_windows = 0;
-    for (std::size_t part = 0; part < parts; ++part) n_windows += double(crew_[part]->n_gone_on());
-    windows_each_ = std::max(1.0, n_windows / double(together_.size()));
+    n_together_ = 0;
+    for (std::size_t part = 0; part < parts; ++part) {
+      n_windows += double(crew_[part]->n_gone_on());
+      n_together_ += parts_[part].together.size();
+    }
+    if (n_together_ == 0) return;
+    windows_each_ = std::max(1.0, n_windows / double(n_together_));
     settle(parts);
-  }
-  static std::size_t first_share(std::size_t part, std::size_t parts) {
-    return part * RayCrossing::n_shares / parts;
   }
 
   static void fetch(const RayCrossing& member, int id, int step) {
@@ -186,7 +200,7 @@ class Front {
     // As many as have sent, so that the memory of windows that one gets another gives.
     threads_.run(parts, [&](std::size_t worker) {
       const std::size_t first = first_share(worker, parts), end = first_share(worker + 1, parts);
-      std::vector<RayCrossing::Batch*>& mine = to_take_[worker];
+      std::vector<RayCrossing::Batch*>& mine = parts_[worker].to_take;
       mine.clear();
       for (std::size_t share = first; share < end; ++share)
         for (std::size_t part = 0; part < parts; ++part)
@@ -200,36 +214,35 @@ class Front {
         if (i + 3 < mine.size()) search_.lists[mine[i + 3]->edge].windows.fetch();
         take(*mine[i], crew_[worker]->envelopes);
       }
-      for (std::size_t share = first; share < end; ++share)
-        forget_passed(watched_[share], *crew_[worker]);
+      for (std::size_t share = first; share < end; ++share) {
+        forget_passed(shares_[share].watched, *crew_[worker]);
+        shares_[share].queue.until();  // here, beside the others
+      }
     });
-    for (std::size_t part = 0; part < parts; ++part)
-      for (const RayCrossing::Batch& batch : crew_[part]->batches())
-        if (batch.due < infinity) queue_.push({batch.due, batch.edge, batch.lead});
   }
   void take(RayCrossing::Batch& batch, EdgeEnvelopes& envelopes) {
     WindowList& list = search_.lists[batch.edge];
     const PolyhedralPages::Edge& edge = search_.pages.edges[batch.edge];
     list.error = std::max(list.error, batch.error);
     const double least = envelopes.take(list, std::move(batch.windows), edge.length);
-    batch.due = infinity;
     if (!(least < infinity) || std::exchange(list.waits, true)) return;
     // Windows wait for what else the front brings, until it has passed the edge or gone on by its
     // `wait`.
     const double ends = std::max(search_.distance[edge.tail], search_.distance[edge.head]);
-    batch.due = std::max(least, std::min(ends, least + edge.wait));
-    batch.lead = float(edge.wait);
+    const double due = std::max(least, std::min(ends, least + edge.wait));
+    Share& share = share_of(batch.edge);
+    share.queue.push({due, batch.edge, float(edge.wait)});
     if (!std::exchange(list.is_watched, true))
-      watched_[RayCrossing::share_of(batch.edge)].push_back({passed(batch.edge), batch.edge});
+      share.watched.push_back({passed(batch.edge), batch.edge});
   }
 
   void wait_at_vertex(int v) {
-    queue_.push({search_.distance[v], -1 - v, search_.pages.vertex_wait[v]});
+    share_of(v).queue.push({search_.distance[v], -1 - v, search_.pages.vertex_wait[v]});
   }
 
   /// Windows of edges that the front has passed prune nothing that the ends of the edge do not.
   void forget_passed(std::deque<Passing>& watched, RayCrossing& member) {
-    const std::size_t n = together_.size() / (RayCrossing::n_shares / (is_crowded_ ? 4 : 2)) + 1;
+    const std::size_t n = n_together_ / (is_crowded_ ? 1 : RayCrossing::n_shares / 2) + 1;
     for (std::size_t i = 0; i < n && !watched.empty(); ++i) {
       if (watched.size() > 12 && may_have_passed(watched[12])) {
         fetch_ahead(&search_.lists[watched[12].edge]);
@@ -269,12 +282,14 @@ class Front {
   /// What is nearer has its shortest path.
   double least_open() const {
     double least = infinity;
-    queue_.for_each([&](const WaveQueue::Entry& entry) {
-      if (entry.id >= 0)
-        least = std::min(least, EdgeEnvelopes::least_open(search_.lists[entry.id]));
-      else if (entry.key <= search_.distance[-1 - entry.id])
-        least = std::min(least, entry.key);
-    });
+    for (const Share& share : shares_) {
+      share.queue.for_each([&](const WaveQueue::Entry& entry) {
+        if (entry.id >= 0)
+          least = std::min(least, EdgeEnvelopes::least_open(search_.lists[entry.id]));
+        else if (entry.key <= search_.distance[-1 - entry.id])
+          least = std::min(least, entry.key);
+      });
+    }
     return least;
   }
 
@@ -284,14 +299,12 @@ class Front {
   double budget_ = most_windows_;
   std::size_t relaxed_ = 0;  // times the limit was met
   double exact_within_ = infinity;
-  WaveQueue queue_;                     // ids of edges with open windows; -1 - vertex
-  std::vector<int> together_, sorted_;  // those of what goes on now, by shares
-  std::array<std::size_t, RayCrossing::n_shares + 1> share_begin_{};  // in `together_`
-  double windows_each_ = 1;  // of the edges among them, the last time
-  double now_ = 0;           // where the front is
-  bool is_crowded_ = false;  // many windows are held
-  std::array<std::vector<RayCrossing::Batch*>, RayCrossing::n_shares> to_take_;
-  std::array<std::deque<Passing>, RayCrossing::n_shares> watched_;
+  std::array<Share, RayCrossing::n_shares> shares_;
+  std::array<Part, RayCrossing::n_shares> parts_;
+  std::size_t n_together_ = 0;  // edges and vertices that went on the last time
+  double windows_each_ = 1;     // of the edges among them
+  double now_ = 0;              // where the front is
+  bool is_crowded_ = false;     // many windows are held
   std::vector<std::unique_ptr<RayCrossing>> crew_;
   ThreadCrew threads_;
   const std::size_t most_parts_ = threads_.size() > 1 ? std::min(4 * std::size_t(threads_.size()),

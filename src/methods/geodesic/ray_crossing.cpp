@@ -8,6 +8,7 @@
 #include "base/fetch_ahead.h"
 #include "base/index.h"
 #include "base/parallel.h"
+#include "base/platform/memory.h"
 #include "methods/geodesic/merge_windows.h"
 
 namespace littoral {
@@ -41,6 +42,7 @@ PolyhedralSearch::PolyhedralSearch(const IntrinsicTriangulation& triangulation, 
       winner(3 * std::size_t(T.n_faces())),
       tolerance(tolerance),
       error(VecX::Zero(tolerance > 0 ? T.n_vertices : 0)) {
+  return_freed_memory();
   reserve_together(lists, std::size_t(T.n_edges()));
   lists.resize(std::size_t(T.n_edges()));
   constexpr std::size_t side_grain = 1 << 16;
@@ -177,7 +179,7 @@ void RayCrossing::leave(int side, Window w) {
   w.b0 = std::max(w.b0, 0.0);
   w.b1 = std::min(w.b1, edge.length);
   w.measure_ends();
-  if (s_.ends(edge).trim(w)) next_batch(id, 1).windows.push_back(w);
+  if (s_.ends(edge).trim(w)) envelopes.spare.push_back(next_batch(id, 1).windows, w);
 }
 
 void RayCrossing::fetch(int id, int step) const {
@@ -243,9 +245,9 @@ void RayCrossing::go_on(int id) {
     if (ends.trim(w)) open_.push_back(w);
   });
   for (std::size_t page = 0; page < sides.size(); ++page) {
-    others_.clear();
+    others_.resize(0);
     for (const Window& w : open_)
-      if (w.page != page) others_.push_back(w);
+      if (w.page != page) envelopes.spare.push_back(others_, w);
     if (others_.empty()) continue;
     rays_.use(others_);
     cross(sides[page]);
@@ -337,6 +339,7 @@ void RayCrossing::leave_together(int side, int id, const TriangleAbove& above, c
         batch.column(WindowBlock::d1)[batch.size() - 1] = c.cut_first[pair];
       }
       const int k = start + step * (beyond - 1);
+      envelopes.spare.make_room(batch, batch.size() + std::size_t(std::abs(k - i)) + 1);
       rays_.put(std::min(i, k), std::max(i, k) + 1, turned, page, batch);
       as_left = true;
       j = beyond;
@@ -354,7 +357,7 @@ void RayCrossing::leave_together(int side, int id, const TriangleAbove& above, c
     if (c.ends[i] != 0) {
       as_left = false;
       if (ends.trim(w)) {
-        batch.push_back(w);
+        envelopes.spare.push_back(batch, w);
         envelopes.settle(batch, ends.length);
       }
       continue;
@@ -366,12 +369,12 @@ void RayCrossing::leave_together(int side, int id, const TriangleAbove& above, c
         batch.column(WindowBlock::b1)[o] = w.b0 = c.cut[pair];
         batch.column(WindowBlock::d1)[o] = c.cut_first[pair];
         w.d0 = c.cut_second[pair];
-        batch.push_back(w);
+        envelopes.spare.push_back(batch, w);
         follows = true;
         continue;
       }
     }
-    batch.push_back(w);
+    envelopes.spare.push_back(batch, w);
     follows = as_left && c.meets[pair] == apart;
     as_left = follows || envelopes.settle(batch, ends.length);
   }

@@ -37,6 +37,7 @@ struct PolyhedralSearch {
 
   const IntrinsicTriangulation& T;
   PolyhedralPages pages;
+  WindowMemory memory;            // of lists and of what is sent to them
   LargeVector<WindowList> lists;  // edges
   VecX distance;                  // vertices; least found so far
   VecXi nearest;
@@ -63,7 +64,8 @@ struct PolyhedralSearch {
 /// can work on different edges at the same time.
 class RayCrossing {
  public:
-  explicit RayCrossing(PolyhedralSearch& search) : s_(search), T_(search.T) {}
+  explicit RayCrossing(PolyhedralSearch& search)
+      : envelopes(search.memory), s_(search), T_(search.T) {}
 
   struct Offer {
     int vertex;
@@ -76,8 +78,6 @@ class RayCrossing {
     int edge;
     WindowBlock windows;
     double error;
-    double due;  // of the edge from now on; +inf: it waits already, or nothing is taken
-    float lead;
   };
 
   void clear();

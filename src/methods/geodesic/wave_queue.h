@@ -28,22 +28,29 @@ class WaveQueue {
   /// +inf if there is nothing.
   double least() const { return far_.empty() ? least_ : std::min(least_, far_.front().key); }
 
+  /// Of this wave and the next few.
+  std::size_t n_soon() const { return near_.size(); }
+
   void push(const Entry& entry) {
     if (entry.key <= soon_) return push_near(entry);
     far_.push_back(entry);
     std::push_heap(far_.begin(), far_.end());
   }
 
-  /// Offers what goes on together to `take`, which says whether it takes it. What is left stays.
-  template <class Take>
-  void take_wave(const Take& take) {
-    const double begin = least();
+  /// The least `Entry::until`; +inf if there is nothing.
+  double until() {
     while (!far_.empty() && far_.front().key <= until_) {
       push_near(far_.front());
       std::pop_heap(far_.begin(), far_.end());
       far_.pop_back();
     }
-    const double end = until_;
+    return until_;
+  }
+
+  /// Offers to `take` what is due until `end`, which it says whether it takes. What is left stays.
+  /// From `least` to `until`, of all queues of the front where there are several.
+  template <class Take>
+  void take_wave(double begin, double end, const Take& take) {
     const std::size_t n = near_.size();
     until_ = least_ = infinity;
     std::size_t kept = 0;

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/movable.h"
 #include "base/shared_rows.h"
 #include "base/task.h"
 #include "littoral/types.h"
@@ -24,7 +25,7 @@ namespace littoral {
 
 /// Scalar functions: values at nodes, gradients at cells.
 struct Calculus {
-  SpMat L;                     // nodes x nodes, lower triangle; positive semidefinite, L = -Delta
+  Movable<SpMat> L;            // nodes x nodes, lower triangle; positive semidefinite, L = -Delta
   VecX M;                      // nodes; lumped mass [length^2]
   LinearMap G;                 // 2 cells x nodes; gradient in each cell's frame
   VecX A;                      // cells; measure [length^2]

@@ -75,14 +75,13 @@ Multigrid::Multigrid(SpMat&& lower, const Task& task) {
     Level& level = levels_.back();
     level.P = smoothed_aggregation(level.A, strong, task);
     if (static_cast<double>(level.P.cols()) > 0.7 * static_cast<double>(level.A.rows())) {
-      SpRows().swap(level.P);
+      level.P = SpRows();
       break;  // next to nothing is coupled
     }
     level.inverse_size = inverse_row_sums(level.A);
     const SpRows AP = product(level.A, level.P, task);
     level.R = transposed(level.P);
-    SpRows coarse = product(level.R, AP, task);
-    levels_.emplace_back().A.swap(coarse);
+    levels_.emplace_back().A = product(level.R, AP, task);
     strong /= 2;
   }
   coarsest_ = factor_for_preconditioning(lower_triangle(levels_.back().A), task);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/movable.h"
 #include "base/task.h"
 #include "littoral/types.h"
 #include "solve/direct/cholesky.h"
@@ -36,9 +37,9 @@ class Multigrid {
 
  private:
   struct Level {
-    SpRows A;
-    VecX inverse_size = {};  // 1 / sum_j |A_ij|: A scaled by it has eigenvalues in (0, 1]
-    SpRows P = {}, R = {};   // prolongation from the next level and its transpose
+    Movable<SpRows> A;
+    VecX inverse_size = {};          // 1 / sum_j |A_ij|: A scaled by it has eigenvalues in (0, 1]
+    Movable<SpRows> P = {}, R = {};  // prolongation from the next level and its transpose
   };
 
   void cycle_at(std::size_t level, const VecX& b, VecX& x, Work& work, const Task& task) const;

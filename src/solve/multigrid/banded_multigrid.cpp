@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "base/index.h"
 #include "base/parallel.h"
+#include "base/parallel_sum.h"
 #include "base/thread_crew.h"
 #include "littoral/error.h"
 
@@ -22,13 +22,10 @@ constexpr std::size_t numbers_at_once = 1 << 15;
 
 /// a . b, the same for any number of threads.
 double dot(const VecX& a, const VecX& b) {
-  const auto n = std::size_t(a.size());
-  std::vector<double> parts((n + numbers_at_once - 1) / numbers_at_once);
-  parallel_for(n, numbers_at_once, [&](std::size_t begin, std::size_t end) {
+  return of_pieces(std::size_t(a.size()), numbers_at_once, 0.0, [&](auto begin, auto end) {
     const auto first = index(begin), size = index(end - begin);
-    parts[begin / numbers_at_once] = a.segment(first, size).dot(b.segment(first, size));
+    return a.segment(first, size).dot(b.segment(first, size));
   });
-  return std::accumulate(parts.begin(), parts.end(), 0.0);
 }
 
 /// The unknowns within some steps of the given ones, ascending.

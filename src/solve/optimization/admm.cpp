@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "base/component_values.h"
@@ -10,6 +9,7 @@
 #include "base/index.h"
 #include "base/now_and_then.h"
 #include "base/parallel.h"
+#include "base/parallel_sum.h"
 #include "base/platform/large_pages.h"
 #include "base/thread_crew.h"
 #include "littoral/error.h"
@@ -108,15 +108,14 @@ class Admm {
   /// Sum over cells of A times term(c, i), from none on, the same for any number of threads.
   template <class Sum, class Term>
   Sum sum_cells(const Sum& none, const Term& term) const {
-    const std::size_t cells = p_.A.size();
-    std::vector<Sum> part((cells + cells_in_sum - 1) / cells_in_sum, none);
-    parallel_for(cells, cells_in_sum, [&](std::size_t begin, std::size_t end) {
+    const auto sum = [&](std::size_t begin, std::size_t end) {
       Sum here = none;
       for (std::size_t c = begin; c < end; ++c)
         here += p_.A[index(c)] * term(index(c), index(c) * p_.dim);
-      part[begin / cells_in_sum] = here;
-    });
-    return std::accumulate(part.begin(), part.end(), none);
+      return here;
+    };
+    return of_pieces(std::size_t(p_.A.size()), cells_in_sum, none, sum,
+                     [](const Sum& a, const Sum& b) -> Sum { return a + b; });
   }
 
   void iterate(bool keep_old) {
@@ -265,9 +264,13 @@ class Admm {
         answer_ = std::move(*shorter);
         multiply(p_.G, answer_, g, task_);
       }
-    r.largest = 0;
-    for (Eigen::Index c = 0; c < p_.A.size(); ++c)
-      r.largest = std::max(r.largest, p_.energy->gauge(c, g.data() + c * p_.dim));
+    const auto largest = [&](std::size_t begin, std::size_t end) {
+      double here = 0;
+      for (Eigen::Index c = index(begin); c < index(end); ++c)
+        here = std::max(here, p_.energy->gauge(c, g.data() + c * p_.dim));
+      return here;
+    };
+    r.largest = of_pieces(std::size_t(p_.A.size()), cells_in_sum, 0.0, largest, Larger());
     const double shrink = 1 / std::max(1.0, r.largest);
     g *= shrink;
     const auto squared = [&](const VecX& x) { return p_.quadratic ? x.dot(p_.quadratic(x)) : 0; };

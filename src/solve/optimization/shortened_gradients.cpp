@@ -5,6 +5,7 @@
 
 #include "base/index.h"
 #include "base/now_and_then.h"
+#include "base/parallel_sum.h"
 #include "littoral/error.h"
 #include "solve/direct/cholesky.h"
 
@@ -17,6 +18,7 @@ constexpr int fewest = 100, most = 200;  // cells too long: that many, and one i
 constexpr double keep = 1e-4;            // weight of staying, beside that of being short
 constexpr double below = 0.8;            // of what is allowed over 1, aimed at
 constexpr int most_steps = 30;
+constexpr std::size_t cells_looked_at = 1 << 13;
 constexpr double settled = 1e-3;  // share of the rest by which a step lessens it
 
 /// The cells that take part and the unknowns that may move in them.
@@ -118,19 +120,32 @@ class Patch {
 
   /// Also finds the longest gradient.
   double value_at(const VecX& x, double aim) {
-    double sum = 0;
-    longest_ = 0;
-    for (std::size_t k = 0; k < cells_.size(); ++k) {
-      const Vec3 by = change(cells_[k], x);
-      const double length = (given(k) + by).norm(), over = std::max(0.0, length - aim);
-      sum += all_.A[cells_[k]] * (0.5 * keep * by.squaredNorm() + 0.5 * over * over);
-      longest_ = std::max(longest_, length);
-    }
-    return sum;
+    struct Found {
+      double sum = 0, longest = 0;
+    };
+    const auto found = of_pieces(
+        cells_.size(), cells_looked_at, Found(),
+        [&](std::size_t begin, std::size_t end) {
+          Found here;
+          for (std::size_t k = begin; k < end; ++k) {
+            const Vec3 by = change(cells_[k], x);
+            const double length = (given(k) + by).norm(), over = std::max(0.0, length - aim);
+            here.sum += all_.A[cells_[k]] * (0.5 * keep * by.squaredNorm() + 0.5 * over * over);
+            here.longest = std::max(here.longest, length);
+          }
+          return here;
+        },
+        [](const Found& a, const Found& b) {
+          return Found{a.sum + b.sum, std::max(a.longest, b.longest)};
+        });
+    longest_ = found.longest;
+    return found.sum;
   }
 
   void add_derivatives(double aim, VecX& slope, SpMat& H) const {
     Triplets entries;
+    std::vector<int> who;      // moves in the cell
+    std::vector<Vec3> slopes;  // its part of G
     for (std::size_t k = 0; k < cells_.size(); ++k) {
       const int c = cells_[k];
       const Vec3 by = change(c, x_), g = given(k) + by;
@@ -143,16 +158,25 @@ class Patch {
         second +=
             (1 - aim / length) * Eigen::Matrix3d::Identity() + aim / length * n * n.transpose();
       }
+      who.clear();
+      slopes.clear();
       for (int d = 0; d < all_.dim; ++d)
-        for (SpRows::InnerIterator a(all_.G, all_.dim * c + d); a; ++a) {
-          const int i = local_[a.col()];
+        for (SpRows::InnerIterator it(all_.G, all_.dim * c + d); it; ++it) {
+          const int i = local_[it.col()];
           if (i < 0) continue;
-          slope[i] += all_.A[c] * a.value() * first[d];
-          for (int e = 0; e < all_.dim; ++e)
-            for (SpRows::InnerIterator b(all_.G, all_.dim * c + e); b; ++b)
-              if (const int j = local_[b.col()]; j >= 0 && j <= i)
-                entries.emplace_back(i, j, all_.A[c] * a.value() * second(d, e) * b.value());
+          const auto at = std::size_t(std::find(who.begin(), who.end(), i) - who.begin());
+          if (at == who.size()) {
+            who.push_back(i);
+            slopes.emplace_back(Vec3::Zero());
+          }
+          slopes[at][d] += it.value();
         }
+      for (std::size_t a = 0; a < who.size(); ++a) {
+        slope[who[a]] += all_.A[c] * slopes[a].dot(first);
+        const Vec3 along = all_.A[c] * (second * slopes[a]);
+        for (std::size_t b = 0; b < who.size(); ++b)
+          if (who[b] <= who[a]) entries.emplace_back(who[a], who[b], along.dot(slopes[b]));
+      }
     }
     H.setFromTriplets(entries.begin(), entries.end());
   }
@@ -168,12 +192,21 @@ class Patch {
 std::optional<VecX> with_shortened_gradients(const CellGradients& cells, const VecX& u,
                                              const VecX& g, const std::vector<char>& fixed,
                                              double longest, const Task& task) {
-  std::vector<int> too_long;
-  for (Eigen::Index c = 0; c < cells.A.size(); ++c)
-    if (g.segment(c * cells.dim, cells.dim).norm() > longest)
-      too_long.push_back(static_cast<int>(c));
-  if (too_long.empty() || int_size(too_long) > std::max(fewest, int(cells.A.size() / most)))
-    return std::nullopt;
+  const auto most_cells = std::size_t(std::max(fewest, int(cells.A.size() / most)));
+  const std::vector<int> too_long = of_pieces(
+      std::size_t(cells.A.size()), cells_looked_at, std::vector<int>(),
+      [&](std::size_t begin, std::size_t end) {
+        std::vector<int> here;
+        for (Eigen::Index c = index(begin); c < index(end) && here.size() <= most_cells; ++c)
+          if (g.segment(c * cells.dim, cells.dim).norm() > longest)
+            here.push_back(static_cast<int>(c));
+        return here;
+      },
+      [](std::vector<int> all, const std::vector<int>& next) {
+        all.insert(all.end(), next.begin(), next.end());
+        return all;
+      });
+  if (too_long.empty() || too_long.size() > most_cells) return std::nullopt;
   Patch patch(cells, g, fixed, too_long);
   try {
     if (!patch.shorten(1 + below * (longest - 1), longest, task)) return std::nullopt;

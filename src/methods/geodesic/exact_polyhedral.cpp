@@ -57,8 +57,8 @@ class Front {
     }
   }
 
-  const VecX& distance() const { return search_.distance; }
-  const VecXi& nearest() const { return search_.nearest; }
+  VecX& distance() { return search_.distance; }
+  VecXi& nearest() { return search_.nearest; }
   /// What distances may be off by, as a share of them, at most.
   double largest_error() const {
     double most = 0;
@@ -319,14 +319,14 @@ ExactDistance exact_polyhedral(const IntrinsicTriangulation& T, const TriangleSo
                                const Task& task, Report& report, const ExactSearch& search) {
   double most_windows = search.most_windows;
   if (!(most_windows > 0)) most_windows = std::max(1e7, 1000.0 * T.n_faces());
-  Front front(T, most_windows, search.tolerance);
+  auto front = std::make_unique<Front>(T, most_windows, search.tolerance);
   double least = 0;
   const std::vector<PolyhedralStart> starts = starts_of(sources, least);
-  front.run(starts, task);
-  report.iterations.emplace_back("windows", front.windows());
+  front->run(starts, task);
+  report.iterations.emplace_back("windows", front->windows());
   if (search.tolerance > 0)
-    report.residuals.emplace_back("merged windows, share of a distance", front.largest_error());
-  const double exact_within = (front.exact_within() + least) * T.unit;
+    report.residuals.emplace_back("merged windows, share of a distance", front->largest_error());
+  const double exact_within = (front->exact_within() + least) * T.unit;
   if (exact_within < infinity) {
     report.warn("not-converged",
                 "exact distance met its limit of " + number_text(most_windows) +
@@ -334,9 +334,11 @@ ExactDistance exact_polyhedral(const IntrinsicTriangulation& T, const TriangleSo
                     " are exact; beyond, true distances are at least that and at most the values, "
                     "which are lengths of paths. Merge or remove overlapping faces");
   }
-  VecXi nearest = front.nearest();
-  return {finalize_field(T.component, T.n_components, T.unit, sources.reached,
-                         front.distance().array() + least, report),
+  VecX distance = std::move(front->distance());
+  VecXi nearest = std::move(front->nearest());
+  front.reset();  // large, and what follows needs memory, too
+  distance.array() += least;
+  return {finalize_field(T.component, T.n_components, T.unit, sources.reached, distance, report),
           std::move(nearest), exact_within};
 }
 

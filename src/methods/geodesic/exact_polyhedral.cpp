@@ -197,7 +197,7 @@ class Front {
         if (offer(o) && search_.pages.bends[o.vertex]) wait_at_vertex(o.vertex);
       }
     }
-    // As many as have sent, so that the memory of windows that one gets another gives.
+    // In as many parts as have sent, each with memory for windows at hand.
     threads_.run(parts, [&](std::size_t worker) {
       const std::size_t first = first_share(worker, parts), end = first_share(worker + 1, parts);
       std::vector<RayCrossing::Batch*>& mine = parts_[worker].to_take;

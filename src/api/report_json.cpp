@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/index.h"
-#include "base/parallel.h"
+#include "base/parallel_sum.h"
 #include "base/platform/memory.h"
 
 namespace littoral {
@@ -140,8 +140,7 @@ FieldRange range_of(std::string name, const Eigen::Ref<const VecX>& values) {
     std::size_t not_finite;
   };
   const auto n = std::size_t(values.size());
-  std::vector<Part> parts((n + grain - 1) / grain);
-  parallel_for(n, grain, [&](std::size_t begin, std::size_t end) {
+  const auto found = [&](std::size_t begin, std::size_t end) {
     Part part{infinity, -infinity, 0};
     for (std::size_t i = begin; i < end; ++i) {
       const double value = values[index(i)];
@@ -152,15 +151,17 @@ FieldRange range_of(std::string name, const Eigen::Ref<const VecX>& values) {
       part.low = std::min(part.low, value);
       part.high = std::max(part.high, value);
     }
-    parts[begin / grain] = part;
-  });
+    return part;
+  };
+  const Part all =
+      of_pieces(n, grain, Part{infinity, -infinity, 0}, found, [](const Part& a, const Part& b) {
+        return Part{std::min(a.low, b.low), std::max(a.high, b.high), a.not_finite + b.not_finite};
+      });
   const double none = std::numeric_limits<double>::quiet_NaN();
-  FieldRange range{std::move(name), none, none, n, 0};
-  for (const Part& part : parts) {
-    range.not_finite += part.not_finite;
-    if (part.low > part.high) continue;
-    range.low = std::fmin(range.low, part.low);
-    range.high = std::fmax(range.high, part.high);
+  FieldRange range{std::move(name), none, none, n, all.not_finite};
+  if (all.low <= all.high) {
+    range.low = all.low;
+    range.high = all.high;
   }
   return range;
 }

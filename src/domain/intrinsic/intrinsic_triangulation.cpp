@@ -12,6 +12,7 @@
 #include "base/index.h"
 #include "base/option_table.h"
 #include "base/parallel.h"
+#include "base/parallel_sum.h"
 #include "domain/intrinsic/lengthened_sides.h"
 #include "domain/mesh/edge_sides.h"
 #include "domain/mesh/face_orientation.h"
@@ -59,9 +60,9 @@ void take_faces(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& repo
 /// Lowest and highest coordinates of the triangles.
 std::pair<Vec3, Vec3> bounds_of(const SurfaceMesh& mesh, const IntrinsicTriangulation& T) {
   const auto n = std::size_t(T.n_faces());
-  const std::pair<Vec3, Vec3> none(Vec3::Constant(infinity), Vec3::Constant(-infinity));
-  std::vector<std::pair<Vec3, Vec3>> parts((n + face_grain - 1) / face_grain, none);
-  parallel_for(n, face_grain, [&](std::size_t begin, std::size_t end) {
+  using Bounds = std::pair<Vec3, Vec3>;
+  const Bounds none(Vec3::Constant(infinity), Vec3::Constant(-infinity));
+  const auto bounds = [&](std::size_t begin, std::size_t end) {
     auto [low, high] = none;
     for (std::size_t f = begin; f < end; ++f)
       for (int k = 0; k < 3; ++k) {
@@ -71,13 +72,11 @@ std::pair<Vec3, Vec3> bounds_of(const SurfaceMesh& mesh, const IntrinsicTriangul
         low = low.cwiseMin(p);
         high = high.cwiseMax(p);
       }
-    parts[begin / face_grain] = {low, high};
+    return Bounds(low, high);
+  };
+  return of_pieces(n, face_grain, none, bounds, [](const Bounds& a, const Bounds& b) {
+    return Bounds(a.first.cwiseMin(b.first), a.second.cwiseMax(b.second));
   });
-  for (const auto& [low, high] : parts) {
-    parts[0].first = parts[0].first.cwiseMin(low);
-    parts[0].second = parts[0].second.cwiseMax(high);
-  }
-  return parts[0];
 }
 
 void measure(const SurfaceMesh& mesh, const EdgeSides& sides, IntrinsicTriangulation& T,

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "base/counted.h"
@@ -12,6 +11,7 @@
 #include "base/fetch_ahead.h"
 #include "base/large_vector.h"
 #include "base/parallel.h"
+#include "base/parallel_sum.h"
 #include "domain/mesh/face_orientation.h"
 #include "littoral/error.h"
 
@@ -49,8 +49,7 @@ double check_face(const PolygonSoup& soup, int f) {
 /// Returns the largest coordinate of a face.
 double check_faces(const PolygonSoup& soup) {
   const std::size_t n = std::size_t(soup.n_faces());
-  std::vector<double> largest((n + corner_face_grain - 1) / corner_face_grain, 0.0);
-  parallel_for(n, corner_face_grain, [&](std::size_t begin, std::size_t end) {
+  const auto largest = [&](std::size_t begin, std::size_t end) {
     constexpr std::size_t ahead = 16;  // corners: points are read in any order
     double here = 0;
     for (std::size_t f = begin; f < end; ++f) {
@@ -60,10 +59,9 @@ double check_faces(const PolygonSoup& soup) {
           fetch_ahead(&soup.points(v, 0));
       here = std::max(here, check_face(soup, int(f)));
     }
-    largest[begin / corner_face_grain] = here;
-  });
-  return std::accumulate(largest.begin(), largest.end(), 0.0,
-                         [](double a, double b) { return std::max(a, b); });
+    return here;
+  };
+  return of_pieces(n, corner_face_grain, 0.0, largest, Larger());
 }
 
 /// For each side (by its first corner) the first one with the same two ends.

@@ -47,7 +47,7 @@ class WaveQueue {
     return until_;
   }
 
-  /// Offers to `take` what is due until `end`, which it says whether it takes. What is left stays.
+  /// Offers what is due until `end` to `take`, which says whether it takes it. What is left stays.
   /// From `least` to `until`, of all queues of the front where there are several.
   template <class Take>
   void take_wave(double begin, double end, const Take& take) {

@@ -146,8 +146,7 @@ class SpareBlocks {
   /// An empty block with room for n windows.
   WindowBlock take(std::size_t n) {
     const std::size_t size = WindowMemory::size_for(n);
-    if (spare_.size() <= size) spare_.resize(size + 1);
-    std::vector<double*>& spare = spare_[size];
+    std::vector<double*>& spare = of_size(size);
     if (spare.empty()) memory_.take(size, spare);
     WindowBlock block(spare.back(), WindowMemory::stride_of(size));
     spare.pop_back();
@@ -157,8 +156,7 @@ class SpareBlocks {
     const WindowBlock block = std::move(given);
     if (block.room() == 0) return;
     const std::size_t size = WindowMemory::size_for(block.room());
-    if (spare_.size() <= size) spare_.resize(size + 1);
-    std::vector<double*>& spare = spare_[size];
+    std::vector<double*>& spare = of_size(size);
     spare.push_back(block.memory());
     const std::size_t most = most_bundles * WindowMemory::bundle(size);
     if (spare.size() > most) memory_.give(size, spare, most / 2 + 1);
@@ -184,6 +182,11 @@ class SpareBlocks {
 
  private:
   static constexpr std::size_t most_bundles = 4;
+
+  std::vector<double*>& of_size(std::size_t size) {
+    if (spare_.size() <= size) spare_.resize(size + 1);
+    return spare_[size];
+  }
 
   WindowMemory& memory_;
   std::vector<std::vector<double*>> spare_;  // by size

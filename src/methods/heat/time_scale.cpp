@@ -6,7 +6,7 @@
 
 #include "base/index.h"
 #include "base/option_table.h"
-#include "base/parallel.h"
+#include "base/parallel_sum.h"
 #include "methods/heat/signed_heat.h"
 
 namespace littoral {
@@ -41,8 +41,7 @@ Shares gradient_shares(const Calculus& C, const VecX& phi, const VecX& Y) {
   const VecX g = C.G.apply(phi);
   constexpr std::size_t grain = 1 << 14;
   const std::size_t n = C.A.size();
-  std::vector<Eigen::Array3d> parts((n + grain - 1) / grain);  // against, off_unit, all
-  parallel_for(n, grain, [&](std::size_t begin, std::size_t end) {
+  const auto areas = [&](std::size_t begin, std::size_t end) -> Eigen::Array3d {
     double against = 0, off_unit = 0, all = 0;
     for (std::size_t s = begin; s < end; ++s) {
       const auto c = index(s);
@@ -52,10 +51,11 @@ Shares gradient_shares(const Calculus& C, const VecX& phi, const VecX& Y) {
       if (!(y.dot(gradient) > 0)) against += C.A[c];
       if (!(std::abs(gradient.norm() - 1) <= off_unit_by)) off_unit += C.A[c];
     }
-    parts[begin / grain] = {against, off_unit, all};
-  });
-  Eigen::Array3d sum = Eigen::Array3d::Zero();
-  for (const Eigen::Array3d& part : parts) sum += part;
+    return {against, off_unit, all};
+  };
+  const Eigen::Array3d sum =
+      of_pieces(n, grain, Eigen::Array3d(0, 0, 0), areas,
+                [](const auto& a, const auto& b) -> Eigen::Array3d { return a + b; });
   const double against = sum[0], off_unit = sum[1], all = sum[2];
   if (!(all > 0)) return {};
   return {against / all, off_unit / all};

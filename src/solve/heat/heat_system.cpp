@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 
 #include "base/counted.h"
 #include "base/index.h"
 #include "base/parallel.h"
+#include "base/parallel_sum.h"
 #include "base/platform/memory.h"
 #include "littoral/error.h"
 
@@ -119,19 +119,16 @@ ScaledField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Matrix& A,
     task.checkpoint();
     const int p = passes++;  // side: all outside or older
     const Vector z = factor.solve(r, side);
-    const std::size_t parts = (n + block_grain - 1) / block_grain;
-    std::vector<double> tops(parts, 0.0);
-    parallel_for(n, block_grain, [&](std::size_t begin, std::size_t end) {
+    const auto top_of = [&](std::size_t begin, std::size_t end) {
       double top_here = 0;
       for (std::size_t i = begin; i < end; ++i)
         if (field.layer[i] < 0 && piece[i] >= 0)
           top_here = std::max(top_here, block_magnitude(z, index(i), block_));
-      tops[begin / block_grain] = top_here;
-    });
-    const double top = *std::max_element(tops.begin(), tops.end());
+      return top_here;
+    };
+    const double top = of_pieces(std::size_t(n), block_grain, 0.0, top_of, Larger());
     if (!(top > 0) || !std::isfinite(top)) break;
-    std::vector<Eigen::Index> taken_in(parts, 0);
-    parallel_for(n, block_grain, [&](std::size_t begin, std::size_t end) {
+    const auto take = [&](std::size_t begin, std::size_t end) {
       Eigen::Index taken_here = 0;
       for (std::size_t i = begin; i < end; ++i) {
         if (field.layer[i] >= 0 || piece[i] < 0) continue;
@@ -141,9 +138,9 @@ ScaledField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Matrix& A,
         std::fill_n(side.begin() + index(i) * block_, block_, fresh);
         ++taken_here;
       }
-      taken_in[begin / block_grain] = taken_here;
-    });
-    const Eigen::Index taken = std::accumulate(taken_in.begin(), taken_in.end(), Eigen::Index{0});
+      return taken_here;
+    };
+    const auto taken = of_pieces(std::size_t(n), block_grain, Eigen::Index{0}, take);
     left -= taken;
     if (left == 0 || taken == 0) break;
 

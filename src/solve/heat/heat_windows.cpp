@@ -8,7 +8,7 @@
 #include "base/beside.h"
 #include "base/index.h"
 #include "base/now_and_then.h"
-#include "base/parallel.h"
+#include "base/parallel_sum.h"
 #include "base/platform/large_pages.h"
 #include "solve/heat/heat_region.h"
 
@@ -250,8 +250,7 @@ double HeatWindows<Scalar>::misfit(const ScaledField<Scalar>& field, const HeatS
   // (A x)_i at blocks with neighbours in the next layer, in units of their own, relative to the
   // size of its terms; where b is 0, as it is away from the sources.
   const std::size_t n = position_.size();
-  std::vector<double> worst(n / window_grain + 1, 0.0);
-  parallel_for(n, window_grain, [&](std::size_t first, std::size_t end) {
+  const auto worst = [&](std::size_t first, std::size_t end) {
     std::vector<int> beside;
     BlockRow<Scalar> row;
     double here = 0;
@@ -286,9 +285,9 @@ double HeatWindows<Scalar>::misfit(const ScaledField<Scalar>& field, const HeatS
         if (size > 0) here = std::max(here, magnitude(sum) / size);
       }
     }
-    worst[first / window_grain] = here;
-  });
-  return *std::ranges::max_element(worst);
+    return here;
+  };
+  return of_pieces(n, window_grain, 0.0, worst, Larger());
 }
 
 template <class Scalar>

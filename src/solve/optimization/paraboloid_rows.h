@@ -10,6 +10,7 @@
 
 #include "base/index.h"
 #include "base/parallel.h"
+#include "base/parallel_sum.h"
 #include "solve/optimization/paraboloid_program.h"
 
 namespace littoral::paraboloid {
@@ -221,15 +222,15 @@ inline constexpr std::size_t elements_at_once = 256;  // of a piece of a paralle
 /// combined in order.
 template <class Partial, class F, class Combine>
 Partial for_elements(std::size_t n, F&& f, Combine&& combine) {
-  std::vector<Partial> partial((n + elements_at_once - 1) / elements_at_once);
-  parallel_for(n, elements_at_once, [&](std::size_t begin, std::size_t end) {
+  const auto piece = [&](std::size_t begin, std::size_t end) {
     Partial here{};  // not in a line of memory with those of other threads
     for (std::size_t e = begin; e < end; ++e) f(e, here);
-    partial[begin / elements_at_once] = std::move(here);
+    return here;
+  };
+  return of_pieces(n, elements_at_once, Partial{}, piece, [&](Partial total, const Partial& next) {
+    combine(total, next);
+    return total;
   });
-  Partial total{};
-  for (const Partial& p : partial) combine(total, p);
-  return total;
 }
 
 /// Calls f(element).

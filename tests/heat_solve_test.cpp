@@ -174,8 +174,8 @@ TEST(HeatSolve, LongChainsDecayAsTheyMustOnAnyNumberOfThreads) {
   A.setFromTriplets(entries.begin(), entries.end());
   std::vector<int> piece(n, 0);
   std::fill(piece.begin() + cut, piece.end(), 1);
-  const HeatSystem<double> system(std::make_shared<const SpMat>(A), 1, VecX::Constant(n, 1 / 3.0),
-                                  SolveHint::many_rhs, {});
+  const VecX M = VecX::Ones(n);
+  const HeatSystem<double> system(std::make_shared<const SpMat>(A), 1, M, SolveHint::many_rhs, {});
   VecX b = VecX::Zero(n);
   b[0] = 5;
   b[n - 1] = 1e-3;

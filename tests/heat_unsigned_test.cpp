@@ -83,12 +83,13 @@ TEST(ScalarHeat, OnTheStructureOfTheLaplacianItIsTheSame) {
   ASSERT_EQ(C.M[C.M.size() - 1], 0);
   const double t = 0.02;
   const Poisson poisson(C.L, C.component, C.n_components, {});
-  const ScalarHeat own(C, t, {}, dissection(C.L, {}), nullptr, {});
-  const ScalarHeat shared(C, t, {}, dissection(C.L, {}), poisson.structure(), {});
-  ASSERT_TRUE(shared.neumann()->factor() && shared.dirichlet()->factor());
-  EXPECT_EQ(shared.neumann()->factor()->structure(), poisson.structure());
-  EXPECT_EQ(shared.dirichlet()->factor()->structure(), poisson.structure());
-  EXPECT_NE(own.neumann()->factor()->structure(), poisson.structure());
+  const auto order = std::make_shared<const Ordering>(dissection(C.L, {}));
+  const ScalarHeat own(C, t, {}, order, nullptr, {});
+  const ScalarHeat shared(C, t, {}, order, poisson.structure(), {});
+  ASSERT_TRUE(shared.kept()->neumann->factor() && shared.kept()->dirichlet->factor());
+  EXPECT_EQ(shared.kept()->neumann->factor()->structure(), poisson.structure());
+  EXPECT_EQ(shared.kept()->dirichlet->factor()->structure(), poisson.structure());
+  EXPECT_NE(own.kept()->neumann->factor()->structure(), poisson.structure());
 
   SourceSystem system;
   system.u0.resize(C.M.size(), 1);
@@ -110,7 +111,7 @@ TEST(ScalarHeat, OnTheStructureOfTheLaplacianItIsTheSame) {
     A.col(v).setZero();
     A(v, v) = 1;
   }
-  const Eigen::MatrixXd lower(shared.dirichlet()->lower());
+  const Eigen::MatrixXd lower(shared.kept()->dirichlet->lower());
   EXPECT_LT((Eigen::MatrixXd(lower.selfadjointView<Eigen::Lower>()) - A).norm(), 1e-15);
 }
 

@@ -189,6 +189,54 @@ TEST(IntrinsicTriangulation, SharesItsCornersWithAMeshAndHasItsOwnWhereFacesAreL
   }
 }
 
+TEST(ConnectionRows, CoupleEdgesByTheCotangentsBetweenThem) {
+  // Where these are negative the entry is a turn the other way.
+  for (const SurfaceMesh& mesh : {SurfaceMesh(test::grid_soup(5, 4)), with_a_book(7)}) {
+    Report report;
+    auto T = std::make_shared<IntrinsicTriangulation>(intrinsic_triangulation(mesh, report));
+    T->seams.resize(0, 3);
+    const VecX M = VecX::Ones(T->n_edges());
+    const double t = 0.3;
+    const auto rows = heat_rows(connection_rows(T), M, t);
+    MatX expected = MatX::Zero(T->n_edges(), T->n_edges()), found = expected;
+    for (int f = 0; f < T->n_faces(); ++f)
+      for (int k = 0; k < 3; ++k) {
+        const int i = T->side_edge(f, k), j = T->side_edge(f, (k + 1) % 3);
+        const double w = 2 * t * T->shape(f).cot[(k + 1) % 3];
+        expected(i, j) += w;
+        expected(j, i) += w;
+      }
+    std::vector<Coupled> beside;
+    for (int i = 0; i < rows->size(); ++i) {
+      rows->couplings(i, beside);
+      for (const auto& [j, w] : beside) found(i, j) += w;
+    }
+    EXPECT_LE((found - expected).cwiseAbs().maxCoeff(), 1e-13);
+    EXPECT_GT(expected.maxCoeff(), 0.1);
+  }
+}
+
+TEST(HermitianRows, CouplingsAreTheSizesOfTurns) {
+  // Blocks of two: 3 times a turn between the first two, nothing between the others.
+  const Eigen::Matrix2d turn = -3 * Eigen::Rotation2Dd(0.7).matrix();
+  Triplets entries;
+  for (int k = 0; k < 6; ++k) entries.emplace_back(k, k, 5);
+  for (int r = 0; r < 2; ++r)
+    for (int c = 0; c < 2; ++c) entries.emplace_back(2 + r, c, turn(r, c));
+  SpMat A(6, 6);
+  A.setFromTriplets(entries.begin(), entries.end());
+  const auto rows = rows_of(std::make_shared<const SpMat>(A), 2);
+  std::vector<Coupled> beside;
+  for (const int i : {0, 1}) {
+    rows->couplings(i, beside);
+    ASSERT_EQ(beside.size(), 1U);
+    EXPECT_EQ(beside[0].block, 1 - i);
+    EXPECT_NEAR(beside[0].w, 3, 1e-14);
+  }
+  rows->couplings(2, beside);
+  EXPECT_TRUE(beside.empty());
+}
+
 TEST(HermitianRows, LowerTriangleCanBeStopped) {
   SpMat identity(3, 3);
   identity.setIdentity();

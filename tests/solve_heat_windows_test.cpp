@@ -48,17 +48,16 @@ struct Both {
 Both solve_both(const VectorDiffusion& V, const VecX& X0, double time_scale) {
   const double t = time_scale * V.h * V.h;
   const auto A = std::make_shared<const SpMatC>(heat_matrix(V, t));
-  const VecX size = decay_lengths(V.M, t);
   const Ordering order = dissection(*A, {});
   Report report;
   Both both;
-  const auto field = HeatWindows<Complex>(rows_of<Complex>(A, 1), size, order)
+  const auto field = HeatWindows<Complex>(rows_of<Complex>(A, 1), V.M, order)
                          .solve(nonzero_blocks(as_complex(X0), 1), V.piece, {}, report);
   EXPECT_TRUE(field.has_value());
   if (!field) return both;
   both.n_windows = report.iterations.back().second;
   both.windows = directions(V, *field);
-  const HeatSystem<Complex> system(A, 1, size, SolveHint::many_rhs, {}, order);
+  const HeatSystem<Complex> system(A, 1, V.M, SolveHint::many_rhs, {}, order);
   both.passes = directions(V, system.solve(as_complex(X0), V.piece, {}, report));
   both.n_passes = report.iterations.back().second;
   return both;
@@ -135,8 +134,8 @@ TEST(HeatWindows, BlocksOfTwoUnknownsAreSolvedAcrossWindows) {
     const TurnedChain chain(n, s);
     Ordering order(n);
     std::iota(order.begin(), order.end(), 0);
-    const HeatWindows<double> windows(rows_of(std::make_shared<const SpMat>(chain.A), 2),
-                                      VecX::Constant(n, std::sqrt(s)), order);
+    const VecX M = VecX::Constant(n, s);
+    const HeatWindows<double> windows(rows_of(std::make_shared<const SpMat>(chain.A), 2), M, order);
     VecX b = VecX::Zero(2 * n);
     b.segment<2>(2 * chain.number[0]) = chain.turn[0].col(0);
     Report report;
@@ -159,8 +158,8 @@ TEST(HeatWindows, BlocksOfTwoUnknownsThatAreHeldAreHeld) {
   const TurnedChain chain(n, 1);
   Ordering order(n);
   std::iota(order.begin(), order.end(), 0);
-  const HeatWindows<double> windows(rows_of(std::make_shared<const SpMat>(chain.A), 2),
-                                    VecX::Constant(n, 1), order);
+  const VecX M = VecX::Ones(n);
+  const HeatWindows<double> windows(rows_of(std::make_shared<const SpMat>(chain.A), 2), M, order);
   VecX held = VecX::Zero(2 * n);
   held.segment<2>(2 * chain.number[middle]) = chain.turn[middle].col(0);
   const VecX b = windows.source_prescribing(held, {});
@@ -172,7 +171,56 @@ TEST(HeatWindows, BlocksOfTwoUnknownsThatAreHeldAreHeld) {
   }
 }
 
-/// Triangles 175 times as high as wide: heat decays over many more of them than their areas say.
+TEST(HeatWindows, AgreeWithPassesOnStretchedTriangles) {
+  // 175 times as high as wide, so that heat decays over many more of them in one direction than in
+  // the other, and turned, so that edges run across.
+  Report report;
+  for (const double shear : {0.0, 0.4}) {
+    PolygonSoup strip = test::grid_soup(700, 4);
+    strip.points.col(0) += shear * strip.points.col(1);
+    const SurfaceMesh mesh(strip);
+    const auto p = test::problem(mesh, test::vertex_points({0}), report);
+    const Both both = solve_both(p.ops->vector, p.terms.vectors(p.ops->vector.n), 1e-4);
+    const auto [largest, mean] = difference(both.windows, both.passes);
+    EXPECT_LE(mean, 1e-12) << shear;
+    EXPECT_LE(largest, 1e-8) << shear;
+    EXPECT_GE(both.n_windows, 3) << shear;
+  }
+}
+
+TEST(HeatWindows, LeaveOutBlocksThatNothingReaches) {
+  // A chain with rows of the identity at both ends, as those of nodes held at 0: on what is
+  // between, the answer is that of a chain cut there.
+  const int n = 300;
+  const double w = 0.2, decay = 2 * std::asinh(0.5 / std::sqrt(w));
+  Triplets entries;
+  for (int k = 0; k < n; ++k) {
+    const bool held = k == 0 || k == n - 1;
+    entries.emplace_back(k, k, held ? 1 : 1 + 2 * w);
+    if (k + 1 < n) entries.emplace_back(k + 1, k, held || k + 2 == n ? 0 : -w);
+  }
+  SpMat A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  const VecX M = VecX::Ones(n);
+  Ordering order(n);
+  std::iota(order.begin(), order.end(), 0);
+  const HeatWindows<double> windows(rows_of(std::make_shared<const SpMat>(A), 1), M, order);
+  VecX b = VecX::Zero(n);
+  b[1] = 1;
+  Report report;
+  const auto field = windows.solve(nonzero_blocks(b, 1), std::vector<int>(n, 0), {}, report);
+  ASSERT_TRUE(field.has_value());
+  EXPECT_EQ(field->layer[0], -1);
+  EXPECT_EQ(field->layer[n - 1], -1);
+  for (int k = 1; k + 1 < n; ++k) {
+    double scale = 1;
+    for (int p = 0; p <= field->layer[k]; ++p) scale *= field->scale[p];
+    const double expected = std::sinh((n - 1 - k) * decay) / std::sinh((n - 1) * decay) / w;
+    EXPECT_LE(std::abs(scale * field->x[k] - expected), 1e-10 * expected) << k;
+  }
+}
+
+/// Masses so much larger than the matrix's that distances are far too long.
 struct Misjudged {
   Report report;
   SurfaceMesh mesh{test::grid_soup(700, 4)};
@@ -180,25 +228,24 @@ struct Misjudged {
   const VectorDiffusion& V = p.ops->vector;
   double t = V.h * V.h;
   std::shared_ptr<const SpMatC> A = std::make_shared<const SpMatC>(heat_matrix(V, t));
+  VecX M = 1e6 * V.M;
 };
 
 TEST(HeatWindows, NoticeMisjudgedDistances) {
   Misjudged m;
-  auto& [report, mesh, p, V, t, A] = m;
-  const HeatWindows<Complex> windows(rows_of<Complex>(A, 1), decay_lengths(V.M, t),
-                                     dissection(*A, {}));
+  auto& [report, mesh, p, V, t, A, M] = m;
+  const HeatWindows<Complex> windows(rows_of<Complex>(A, 1), M, dissection(*A, {}));
   const VecXc b = as_complex(p.terms.vectors(p.ops->vector.n));
   EXPECT_FALSE(windows.solve(nonzero_blocks(b, 1), V.piece, {}, report).has_value());
 }
 
 TEST(HeatWindows, MatricesGivenByRowsAreFactoredWhereDistancesAreMisjudged) {
   Misjudged m;
-  auto& [report, mesh, p, V, t, A] = m;
-  const VecX size = decay_lengths(V.M, t);
+  auto& [report, mesh, p, V, t, A, M] = m;
   const Ordering order = dissection(*A, {});
   const VecXc b = as_complex(p.terms.vectors(V.n));
-  const HeatSystem<Complex> factored(A, 1, size, SolveHint::many_rhs, {}, order);
-  const HeatSystem<Complex> by_rows(rows_of<Complex>(A, 1), size, order);
+  const HeatSystem<Complex> factored(A, 1, M, SolveHint::many_rhs, {}, order);
+  const HeatSystem<Complex> by_rows(rows_of<Complex>(A, 1), M, order);
   ASSERT_EQ(by_rows.factor(), nullptr);
   const auto expected = factored.solve(b, V.piece, {}, report);
   const auto found = by_rows.solve(b, V.piece, {}, report);
@@ -248,8 +295,7 @@ TEST(HeatWindows, HeldVectorsAreHeld) {
   const VecXc held = as_complex(normalize(p.terms.vectors(V.n)));
   const double t = V.h * V.h;
   const auto A = std::make_shared<const SpMatC>(heat_matrix(V, t));
-  const VecX size = decay_lengths(V.M, t);
-  const HeatSystem<Complex> system(A, 1, size, SolveHint::many_rhs, {});
+  const HeatSystem<Complex> system(A, 1, V.M, SolveHint::many_rhs, {});
   const auto field = system.solve_prescribed(held, V.piece, {}, report);
   double worst = 0, residual = 0;
   int one = 0;  // the field has one layer, in units of its own: make a held vector one long

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/fetch_ahead.h"
 #include "domain/mesh/edge_sides.h"
 #include "operators/sum_over_triangles.h"
 
@@ -57,6 +58,24 @@ class ConnectionRows : public HermitianRows<Complex> {
       out.values[0] += first.w + second.w;
       place(out, T_->side_edge(f, before)) += first.row == k ? first.r : std::conj(first.r);
       place(out, T_->side_edge(f, (k + 1) % 3)) += second.row == k ? second.r : std::conj(second.r);
+    }
+  }
+
+  void couplings(int i, std::vector<Coupled>& out) const override {
+    out.clear();
+    for (const TriangleSide& side : sides_.at(i)) {
+      const int f = side.face(), k = side.k(), next = (k + 1) % 3, before = (k + 2) % 3;
+      const double a = T_->length(f, k), b = T_->length(f, next), c = T_->length(f, before);
+      const double half = 0.5 / area_of_lengths(a, b, c);  // 2 cot = half * what follows
+      out.push_back({T_->side_edge(f, next), half * law_of_cosines(a, b, c)});
+      out.push_back({T_->side_edge(f, before), half * law_of_cosines(a, c, b)});
+    }
+  }
+
+  void fetch(int i) const override {
+    for (const TriangleSide& side : sides_.at(i)) {
+      fetch_ahead(&T_->length(side.face(), 0));
+      fetch_ahead(&T_->side_edge.matrix().coeffRef(side.face(), 0));
     }
   }
 

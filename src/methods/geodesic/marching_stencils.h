@@ -58,12 +58,28 @@ class Stencils {
   template <class Body>
   void for_unfolded_at(int v, const Body& body) const {
     if (unfolded_.empty()) return;
-    for (const int u : users_.at(v)) body(unfolded_[u]);
+    for (const int u : users_.at(v)) body(stencil(u / 2, u % 2));
   }
 
   int n_unsplit = 0;  // obtuse corners where the mesh ends before a vertex in front is found
 
  private:
+  /// A corner whose vertex is reached from the edges between `in_front` and its sides' other ends:
+  /// all that the triangle does not tell.
+  struct UnfoldedCorner {
+    int corner, in_front;
+    double to_in_front, both[2];  // scalar products; with the ends of side k and of the one before
+  };
+
+  UnfoldedStencil stencil(int unfolded, int end) const {
+    const UnfoldedCorner& c = unfolded_[unfolded];
+    const int f = c.corner / 3, k = c.corner % 3;
+    const double to_end = T_.length(f, end == 0 ? k : (k + 2) % 3);
+    return {T_.faces(f, k), T_.faces(f, (k + 1 + end) % 3),
+            c.in_front,     to_end * to_end,
+            c.to_in_front,  c.both[end]};
+  }
+
   void unfold_obtuse(const Task& task) {
     unfolds_.assign(corners_.members.size(), 0);
     EdgeSides sides;  // found where there is an obtuse corner
@@ -84,16 +100,16 @@ class Stencils {
           continue;
         }
         unfolds_[3 * std::size_t(f) + k] = 1;
-        for (const int end : {1, 2})
-          unfolded_.push_back({v, T_.faces(f, (k + end) % 3), d, std::norm(t.p[end]), std::norm(D),
-                               plane::dot(t.p[end], D)});
+        unfolded_.push_back(
+            {3 * f + k, d, std::norm(D), {plane::dot(t.p[1], D), plane::dot(t.p[2], D)}});
       }
     }
     if (unfolded_.empty()) return;
     users_ = groups_of<int>(std::size_t(T_.n_vertices), [&](const auto& put) {
-      for (int i = 0; i < int_size(unfolded_); ++i) {
-        put(unfolded_[i].side_end, i);
-        put(unfolded_[i].in_front, i);
+      for (int u = 0; u < 2 * int_size(unfolded_); ++u) {
+        const int c = unfolded_[u / 2].corner;
+        put(T_.faces(c / 3, (c % 3 + 1 + u % 2) % 3), u);
+        put(unfolded_[u / 2].in_front, u);
       }
     });
   }
@@ -132,8 +148,8 @@ class Stencils {
   const std::vector<char>& with_sides_;  // triangles
   Groups<int> corners_;                  // vertices
   std::vector<char> unfolds_;            // corners
-  std::vector<UnfoldedStencil> unfolded_;
-  Groups<int> users_;  // vertices; unfolded stencils
+  std::vector<UnfoldedCorner> unfolded_;
+  Groups<int> users_;  // vertices; unfolded stencils, two of each corner
 };
 
 }  // namespace littoral

@@ -41,6 +41,11 @@ class HeatRows : public HermitianRows<Complex> {
     for (Complex& z : out.values) z *= t_;
     out.values[0] += M_[i] > 0 ? M_[i] : 1.0;
   }
+  void fetch(int i) const override { L_->fetch(i); }
+  void couplings(int i, std::vector<Coupled>& out) const override {
+    L_->couplings(i, out);
+    for (Coupled& other : out) other.w *= t_;
+  }
 
  private:
   std::shared_ptr<const HermitianRows<Complex>> L_;

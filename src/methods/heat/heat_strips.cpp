@@ -46,7 +46,7 @@ struct HeatStrips::NearPoints {
 StripParts::StripParts(std::shared_ptr<const Operators> operators, const ScalarHeat& heat,
                        const Poisson& equation)
     : ops(std::move(operators)),
-      row_of(heat.neumann()->factor()->structure()->new_of),
+      row_of(heat.kept()->neumann->factor()->structure()->new_of),
       component(components_of_rows(ops->scalar, row_of, nullptr)),
       cells(ops->scalar, row_of),
       poisson(equation, row_of) {
@@ -63,20 +63,21 @@ StripParts::StripParts(std::shared_ptr<const Operators> operators, const ScalarH
 std::shared_ptr<const StripParts> HeatStrips::parts(std::shared_ptr<const Operators> ops,
                                                     const ScalarHeat& heat,
                                                     const Poisson& poisson) {
-  const bool factors = heat.neumann()->factor() &&
-                       (!heat.dirichlet() || heat.dirichlet()->factor()) &&
+  const ScalarHeat::Systems* const kept = heat.kept();
+  const bool factors = kept && kept->neumann->factor() &&
+                       (!kept->dirichlet || kept->dirichlet->factor()) &&
                        poisson.system().exact_factor();
   return factors ? std::make_shared<const StripParts>(std::move(ops), heat, poisson) : nullptr;
 }
 
 HeatStrips::HeatStrips(std::shared_ptr<const StripParts> parts, const ScalarHeat& heat)
     : parts_(std::move(parts)),
-      neumann_(heat.neumann(), parts_->row_of, parts_->component,
+      neumann_(heat.kept()->neumann, parts_->row_of, parts_->component,
                parts_->ops->scalar.n_components) {
   const Calculus& C = parts_->ops->scalar;
-  if (heat.dirichlet())
+  if (heat.kept()->dirichlet)
     dirichlet_ = std::make_unique<const StripHeat>(
-        heat.dirichlet(), parts_->row_of, components_of_rows(C, parts_->row_of, &C.boundary),
+        heat.kept()->dirichlet, parts_->row_of, components_of_rows(C, parts_->row_of, &C.boundary),
         C.n_components);
 }
 

@@ -17,10 +17,11 @@ namespace littoral {
 /// there.
 class ScalarHeat {
  public:
-  /// structure: of the factor of C.L with its whole diagonal, if it is known; both matrices have
-  /// it.
-  ScalarHeat(const Calculus& C, double t, SolveHint hint, const Ordering& order,
-             const std::shared_ptr<const Elimination>& structure, const Task& task);
+  /// order: of elimination of the nodes; found here if null. structure: of the factor of C.L with
+  /// its whole diagonal, if it is known; both matrices have it. Matrices too large to be factored
+  /// are made for each solve and given up: they take more memory than time.
+  ScalarHeat(const Calculus& C, double t, SolveHint hint, std::shared_ptr<const Ordering> order,
+             std::shared_ptr<const Elimination> structure, const Task& task);
 
   /// Adds -grad u of all batches of sources to `field`: each cell takes the batch whose
   /// gradient is longest there, that is the nearest. A sum would turn the directions of two sources
@@ -30,17 +31,21 @@ class ScalarHeat {
   void add_nearest(const Calculus& C, const SourceSystem& system, double point_weight,
                    CellField& field, Task task, Report& report) const;
 
-  const std::shared_ptr<const HeatSystem<double>>& neumann() const { return neumann_; }
-  const std::shared_ptr<const HeatSystem<double>>& dirichlet() const { return dirichlet_; }
-  double nonzeros() const {
-    return neumann_->nonzeros() + (dirichlet_ ? dirichlet_->nonzeros() : 0);
-  }
+  struct Systems {
+    std::shared_ptr<const HeatSystem<double>> neumann, dirichlet;  // none without boundary
+  };
+  /// Null where they are made for each solve.
+  const Systems* kept() const { return kept_.get(); }
+  double nonzeros() const;
 
  private:
-  CellField flow(const Calculus& C, const VecX& u0, const Task& task, Report& report) const;
+  Systems systems(const Calculus& C, const Task& task) const;
 
-  double root_t_;
-  std::shared_ptr<const HeatSystem<double>> neumann_, dirichlet_;  // no dirichlet_ without boundary
+  double t_;
+  SolveHint hint_;
+  std::shared_ptr<const Ordering> order_;
+  std::shared_ptr<const Elimination> structure_;
+  std::shared_ptr<const Systems> kept_;
 };
 
 /// Makes a point's gradient as long as that of a straight curve at distance sqrt(t) from both:

@@ -91,7 +91,7 @@ void SignedHeatSolver::factor_heat(double time_scale, Diffusions diffusions, Tas
   root_t_ = ops_->vector.h * std::sqrt(time_scale);
   const double t = root_t_ * root_t_;
   if (diffusions.scalars)
-    scalar_heat_.emplace(ops_->scalar, t, hint_, *order_, poisson_->structure(),
+    scalar_heat_.emplace(ops_->scalar, t, hint_, order_, poisson_->structure(),
                          task.stage(0.2, "factor heat"));
   if (diffusions.vectors)
     heat_.emplace(ops_->vector, t, hint_, order_, task.stage(0.4, "factor vector heat"));
@@ -105,14 +105,13 @@ SignedHeatSolver SignedHeatSolver::with(double time_scale, Diffusions diffusions
   return out;
 }
 
-VecX SignedHeatSolver::integrate(const SourceSystem& system, const VecX& Y,
+VecX SignedHeatSolver::integrate(const SourceSystem& system, const VecX& b,
                                  const SignedHeat& options, const Task& task,
                                  Report& report) const {
   // Step III: L phi = G^T A Y (eq. 13), subject to the constraints of section 7.1.
   // With points, phi = d0 + psi where d0 is the exact distance next to them: psi has the
   // constraints.
   const Calculus& C = ops_->scalar;
-  const VecX b = C.divergence(Y);
   if (options.soft > 0)
     return poisson_->solve_soft(b, system.A, options.soft * system.weight, task, report,
                                 system.value);
@@ -156,7 +155,7 @@ VecX SignedHeatSolver::directions(const SourceSystem& system, const SignedHeat& 
     CellField X = no_field(C.A.size());
     scalar_heat_->add_nearest(C, system, 1, X, task, report);
     set_near(C, system, X.Y);
-    return X.Y;
+    return std::move(X.Y);
   }();
   if (!(Y.cwiseAbs().maxCoeff() > 0))
     report.warn("normals-cancel",
@@ -191,10 +190,11 @@ VecX SignedHeatSolver::solve(const SourceSystem& system, const SignedHeat& optio
 
   const Stopwatch watch(report, "integrate");
   const bool near = needed.scalars && !system.d0.isZero(0);
-  const VecX g0 = near ? ops_->scalar.G.apply(system.d0) : VecX();
-  const auto integrated = [&] {
-    if (!near) return integrate(system, Y, options, poisson_stage, report);
-    return VecX(system.d0 + integrate(system, Y - g0, options, poisson_stage, report));
+  const auto integrated = [&]() -> VecX {
+    const Calculus& C = ops_->scalar;
+    if (!near) return integrate(system, C.divergence(Y), options, poisson_stage, report);
+    const VecX b = C.divergence(Y - C.G.apply(system.d0));
+    return system.d0 + integrate(system, b, options, poisson_stage, report);
   };
   VecX phi = integrated();
   while (add_across_pinches(phi, reached, Y, poisson_stage, report)) phi = integrated();

@@ -74,7 +74,7 @@ class SignedHeatSolver {
                           Report& report) const;
 
  private:
-  VecX integrate(const SourceSystem& system, const VecX& Y, const SignedHeat& options,
+  VecX integrate(const SourceSystem& system, const VecX& b, const SignedHeat& options,
                  const Task& task, Report& report) const;
   void factor_heat(double time_scale, Diffusions diffusions, Task& task);
 

@@ -23,10 +23,11 @@ UnsignedHeatSolver::UnsignedHeatSolver(std::shared_ptr<const Operators> ops,
     : ops_(std::move(ops)),
       hint_(hint),
       root_t_(ops_->scalar.h * std::sqrt(options.time_scale > 0 ? options.time_scale : 1)),
-      order_(dissection(ops_->scalar.L, task.stage(0.3, "order"))),
+      order_(
+          std::make_shared<const Ordering>(dissection(ops_->scalar.L, task.stage(0.3, "order")))),
       poisson_(std::make_shared<const Poisson>(
           std::shared_ptr<const SpMat>(ops_, &ops_->scalar.L), ops_->scalar.component,
-          ops_->scalar.n_components, task.stage(0.3, "factor Poisson"), order_, solver_for(hint))),
+          ops_->scalar.n_components, task.stage(0.3, "factor Poisson"), *order_, solver_for(hint))),
       heat_(ops_->scalar, root_t_ * root_t_, hint, order_, poisson_->structure(),
             task.stage(0.4, "factor heat")) {}
 

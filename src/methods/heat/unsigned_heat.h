@@ -44,7 +44,7 @@ class UnsignedHeatSolver {
   std::shared_ptr<const Operators> ops_;
   SolveHint hint_;
   double root_t_;
-  Ordering order_;  // of the nodes
+  std::shared_ptr<const Ordering> order_;  // of the nodes
   std::shared_ptr<const Poisson> poisson_;
   ScalarHeat heat_;
 };

@@ -33,17 +33,15 @@ VectorHeat::System VectorHeat::system(const VectorDiffusion& V, const Task& task
                                        : Ordering();
   task.checkpoint();
   if (V.L_rows && V.n > largest_to_factor(hint_))
-    return {std::make_shared<const HeatSystem<Complex>>(heat_rows(V.L_rows(), V.M, t_),
-                                                        decay_lengths(V.M, t_), order),
+    return {std::make_shared<const HeatSystem<Complex>>(heat_rows(V.L_rows(), V.M, t_), V.M, order),
             nullptr};
   if (V.complex_linear())
-    return {std::make_shared<const HeatSystem<Complex>>(heat_matrix(V.L, V.M, t_, task), 1,
-                                                        decay_lengths(V.M, t_), hint_, task,
-                                                        std::move(order)),
+    return {std::make_shared<const HeatSystem<Complex>>(heat_matrix(V.L, V.M, t_, task), 1, V.M,
+                                                        hint_, task, std::move(order)),
             nullptr};
-  return {nullptr, std::make_shared<const HeatSystem<double>>(heat_matrix(V.L_real, V.M, t_, task),
-                                                              2, decay_lengths(V.M, t_), hint_,
-                                                              task, std::move(order))};
+  return {nullptr,
+          std::make_shared<const HeatSystem<double>>(heat_matrix(V.L_real, V.M, t_, task), 2, V.M,
+                                                     hint_, task, std::move(order))};
 }
 
 ScaledField<double> VectorHeat::solve(const VectorDiffusion& V, VecX X0, const Task& task,

@@ -1,6 +1,7 @@
 #include "solve/direct/hermitian_rows.h"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <utility>
 
@@ -71,6 +72,20 @@ class RowsOfLower : public HermitianRows<Scalar> {
 }  // namespace
 
 template <class Scalar>
+void HermitianRows<Scalar>::couplings(int i, std::vector<Coupled>& out) const {
+  BlockRow<Scalar> own;
+  row(i, own);
+  const std::size_t of_block = std::size_t(block()) * block();
+  out.clear();
+  for (std::size_t s = 1; s < own.blocks.size(); ++s) {
+    double squares = 0;
+    for (std::size_t k = s * of_block; k < (s + 1) * of_block; ++k)
+      squares += Eigen::numext::abs2(own.values[k]);
+    out.push_back({own.blocks[s], std::sqrt(squares / block())});
+  }
+}
+
+template <class Scalar>
 std::shared_ptr<const HermitianRows<Scalar>> rows_of(
     std::shared_ptr<const Eigen::SparseMatrix<Scalar>> lower, int block) {
   return std::make_shared<const RowsOfLower<Scalar>>(std::move(lower), block);
@@ -96,6 +111,8 @@ Eigen::SparseMatrix<Scalar> lower_triangle(const HermitianRows<Scalar>& A, const
   return lower;
 }
 
+template class HermitianRows<double>;
+template class HermitianRows<Complex>;
 template std::shared_ptr<const HermitianRows<double>> rows_of(std::shared_ptr<const SpMat>, int);
 template std::shared_ptr<const HermitianRows<Complex>> rows_of(std::shared_ptr<const SpMatC>, int);
 template SpMat lower_triangle(const HermitianRows<double>&, const Task&);

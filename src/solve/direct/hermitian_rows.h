@@ -1,6 +1,7 @@
 #pragma once
 // Hermitian matrices that are asked for row by row, from memory or made anew each time.
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -16,6 +17,12 @@ struct BlockRow {
   std::vector<Scalar> values;  // of each block, row by row
 };
 
+/// How strongly a block is coupled to another one: w where the entry between is -w times a turn.
+struct Coupled {
+  int block;
+  double w;
+};
+
 /// A Hermitian matrix of unknowns in blocks, as what looks at a few rows at a time asks for it: one
 /// that is as quickly made as read need not be kept. May be asked on several threads.
 template <class Scalar>
@@ -29,7 +36,17 @@ class HermitianRows {
   virtual void neighbours(int i, std::vector<int>& out) const = 0;
   /// Row i of blocks, in the place of what was in `out`.
   virtual void row(int i, BlockRow<Scalar>& out) const = 0;
+  /// What block i is coupled to, in the place of what was in `out`; another block may be there more
+  /// than once. By the size of entries, which are real or of blocks that turn and scale, where a
+  /// matrix does not know better.
+  virtual void couplings(int i, std::vector<Coupled>& out) const;
+  /// Brings what is asked about block i into the cache; for blocks that are asked for in no order
+  /// that memory knows.
+  virtual void fetch(int) const {}
 };
+
+/// How many blocks before it is asked for one is best fetched.
+inline constexpr std::size_t blocks_ahead = 6;
 
 /// The rows of a matrix given by its lower triangle, whose columns ascend.
 template <class Scalar>

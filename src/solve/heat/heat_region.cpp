@@ -1,6 +1,7 @@
 #include "solve/heat/heat_region.h"
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "base/now_and_then.h"
 #include "base/parallel.h"
 #include "solve/direct/cholesky.h"
+#include "solve/direct/elimination.h"
 
 namespace littoral {
 
@@ -21,49 +23,58 @@ HeatRegion<Scalar>::HeatRegion(const HermitianRows<Scalar>& A, std::vector<int> 
     : blocks(std::move(own_blocks)) {
   const int block = A.block();
   for (std::size_t k = 0; k < blocks.size(); ++k) local[blocks[k]] = k;
-  const int n_blocks = int_size(blocks), n = n_blocks * block;
+  const int n = int_size(blocks) * block;
   K.resize(n, n);  // a column is what a row has on its right
   int* begin = K.outerIndexPtr();
+  at_border.assign(blocks.size(), 0);
+  // Columns of a piece of blocks one after the other, as rows are asked for once.
+  struct Piece {
+    std::vector<int> rows;
+    std::vector<Scalar> values;
+  };
+  std::vector<Piece> pieces((blocks.size() + region_grain - 1) / region_grain);
   parallel_for(blocks.size(), region_grain, [&](std::size_t first, std::size_t end) {
-    std::vector<int> beside;
+    BlockRow<Scalar> row;
+    Piece piece;
+    // What edges and nodes of triangles take; more grows.
+    const std::size_t enough = 4 * std::size_t(block) * block * (end - first);
+    piece.rows.reserve(enough);
+    piece.values.reserve(enough);
+    stop_if_cancelled(task);
     for (std::size_t k = first; k < end; ++k) {
-      A.neighbours(blocks[k], beside);
-      const auto right = std::count_if(beside.begin(), beside.end(),
-                                       [&](int j) { return local[j] > static_cast<int>(k); });
-      for (int c = 0; c < block; ++c)
-        begin[index(k) * block + c] = block - c + block * static_cast<int>(right);
+      const int here = static_cast<int>(k);
+      if (k + blocks_ahead < end) A.fetch(blocks[k + blocks_ahead]);
+      A.row(blocks[k], row);
+      for (int c = 0; c < block; ++c) {
+        const std::size_t before = piece.rows.size();
+        const auto put = [&](int i, const Scalar& z) {
+          piece.rows.push_back(i);
+          piece.values.push_back(z);
+        };
+        for (int i = c; i < block; ++i) put(here * block + i, row.values[i * block + c]);
+        for (std::size_t s = 1; s < row.blocks.size(); ++s) {
+          const int j = local[row.blocks[s]];
+          if (j < 0) at_border[k] = 1;
+          if (j <= here) continue;
+          const Scalar* z = &row.values[(s * block + c) * block];
+          for (int i = 0; i < block; ++i) put(j * block + i, Eigen::numext::conj(z[i]));
+        }
+        begin[here * block + c] = static_cast<int>(piece.rows.size() - before);
+      }
     }
+    pieces[first / region_grain] = std::move(piece);
   });
   int sum = 0;
   for (int k = 0; k < n; ++k) sum += std::exchange(begin[k], sum);
   begin[n] = sum;
   K.resizeNonZeros(sum);
-  parallel_for(blocks.size(), region_grain, [&](std::size_t first, std::size_t end) {
-    BlockRow<Scalar> row;
-    stop_if_cancelled(task);
-    for (std::size_t k = first; k < end; ++k) {
-      const int here = static_cast<int>(k);
-      A.row(blocks[k], row);
-      for (int c = 0; c < block; ++c) {
-        int e = begin[here * block + c];
-        const auto put = [&](int i, const Scalar& z) {
-          K.innerIndexPtr()[e] = i;
-          K.valuePtr()[e++] = z;
-        };
-        for (int i = c; i < block; ++i) put(here * block + i, row.values[i * block + c]);
-        for (std::size_t s = 1; s < row.blocks.size(); ++s) {
-          const int j = row.blocks[s];
-          if (local[j] <= here) continue;
-          const Scalar* z = &row.values[(s * block + c) * block];
-          for (int i = 0; i < block; ++i) put(local[j] * block + i, Eigen::numext::conj(z[i]));
-        }
-      }
-    }
+  parallel_for(pieces.size(), 1, [&](std::size_t p, std::size_t) {
+    const Piece piece = std::move(pieces[p]);
+    const int at = begin[p * region_grain * std::size_t(block)];
+    std::copy(piece.rows.begin(), piece.rows.end(), K.innerIndexPtr() + at);
+    std::copy(piece.values.begin(), piece.values.end(), K.valuePtr() + at);
   });
   for (int i : blocks) local[i] = -1;
-  Ordering in_order(n);
-  std::iota(in_order.begin(), in_order.end(), 0);
-  structure = std::make_shared<const Elimination>(K, in_order, task);
 }
 
 template <class Scalar>
@@ -73,11 +84,9 @@ typename HeatRegion<Scalar>::Vector HeatRegion<Scalar>::solve(const HermitianRow
                                                               const Task& task) const {
   const int block = A.block();
   parallel_for(blocks.size(), region_grain, [&](std::size_t first, std::size_t end) {
-    std::vector<int> beside;
     BlockRow<Scalar> row;
     for (std::size_t k = first; k < end; ++k) {
-      A.neighbours(blocks[k], beside);
-      if (std::ranges::none_of(beside, [&](int j) { return known[j] != 0; })) continue;
+      if (at_border[k] == 0) continue;
       A.row(blocks[k], row);
       for (std::size_t s = 1; s < row.blocks.size(); ++s) {
         const int j = row.blocks[s];
@@ -89,6 +98,9 @@ typename HeatRegion<Scalar>::Vector HeatRegion<Scalar>::solve(const HermitianRow
       }
     }
   });
+  Ordering in_order(r.size());
+  std::iota(in_order.begin(), in_order.end(), 0);
+  const auto structure = std::make_shared<const Elimination>(K, in_order, task);
   return raised_cholesky(K, structure, task).factor.solve(r);
 }
 

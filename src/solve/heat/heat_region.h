@@ -1,12 +1,10 @@
 #pragma once
 // A connected part of a window of heat: what is known of it before its right-hand side is.
 
-#include <memory>
 #include <vector>
 
 #include "base/task.h"
 #include "littoral/types.h"
-#include "solve/direct/elimination.h"
 #include "solve/direct/hermitian_rows.h"
 
 namespace littoral {
@@ -29,8 +27,8 @@ struct HeatRegion {
                Vector r, const Task& task) const;
 
   std::vector<int> blocks;
+  std::vector<char> at_border;    // blocks with neighbours elsewhere
   Eigen::SparseMatrix<Scalar> K;  // lower triangle
-  std::shared_ptr<const Elimination> structure;
 };
 
 extern template struct HeatRegion<double>;

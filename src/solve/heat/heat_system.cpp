@@ -32,6 +32,18 @@ Ordering order_of_blocks(const Eigen::SparseMatrix<Scalar>& lower, int block, co
   return dissection(blocks, task);
 }
 
+template <class Scalar>
+void warn_of_missing(const ScaledField<Scalar>& field, const std::vector<int>& piece,
+                     Report& report) {
+  std::size_t missing = 0;
+  for (std::size_t i = 0; i < piece.size(); ++i) missing += piece[i] >= 0 && field.layer[i] < 0;
+  if (missing > 0)
+    report.warn("direction-missing", "heat did not reach " +
+                                         counted(missing, "element", "elements") +
+                                         ": the Poisson step fills in the distance there, less "
+                                         "exactly. A larger option time-scale reaches farther");
+}
+
 }  // namespace
 
 Eigen::Index largest_to_factor(SolveHint hint) {
@@ -39,14 +51,13 @@ Eigen::Index largest_to_factor(SolveHint hint) {
 }
 
 template <class Scalar>
-HeatSystem<Scalar>::HeatSystem(std::shared_ptr<const Matrix> lower, int block, VecX size,
+HeatSystem<Scalar>::HeatSystem(std::shared_ptr<const Matrix> lower, int block, const VecX& M,
                                SolveHint hint, const Task& task, Ordering order,
                                std::shared_ptr<const Elimination> known)
     : A_(std::move(lower)),
       rows_(rows_of(A_, block)),
       block_(block),
-      windows_(rows_, std::move(size),
-               order.empty() ? order_of_blocks(*A_, block, task) : std::move(order)),
+      windows_(rows_, M, order.empty() ? order_of_blocks(*A_, block, task) : std::move(order)),
       structure_(std::move(known)) {
   if (A_->rows() > largest_to_factor(hint)) return;
   const auto structure = eliminated(*A_, task);
@@ -56,9 +67,9 @@ HeatSystem<Scalar>::HeatSystem(std::shared_ptr<const Matrix> lower, int block, V
 }
 
 template <class Scalar>
-HeatSystem<Scalar>::HeatSystem(std::shared_ptr<const HermitianRows<Scalar>> rows, VecX size,
+HeatSystem<Scalar>::HeatSystem(std::shared_ptr<const HermitianRows<Scalar>> rows, const VecX& M,
                                const Ordering& order)
-    : rows_(std::move(rows)), block_(rows_->block()), windows_(rows_, std::move(size), order) {}
+    : rows_(std::move(rows)), block_(rows_->block()), windows_(rows_, M, order) {}
 
 template <class Scalar>
 std::shared_ptr<const Elimination> HeatSystem<Scalar>::eliminated(const Matrix& A,
@@ -90,7 +101,10 @@ ScaledField<Scalar> HeatSystem<Scalar>::solve(HeatSource<Scalar> b, const std::v
   if (factor_) return in_passes(*A_, *factor_);
   auto field = windows_.solve(b, reached, task, report);
   return_freed_memory();
-  if (field) return std::move(*field);
+  if (field) {
+    warn_of_missing(*field, reached, report);
+    return std::move(*field);
+  }
   const auto A = A_ ? A_ : std::make_shared<const Matrix>(lower_triangle(*rows_, task));
   return in_passes(*A, raised_cholesky(*A, eliminated(*A, task), task).factor);
 }
@@ -111,7 +125,6 @@ ScaledField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Matrix& A,
   const Eigen::Index n = r.size() / block_;
   ScaledField<Scalar> field{Vector::Zero(r.size()), std::vector<int>(n, -1), {1.0}};
   Eigen::Index left = n - std::count(piece.begin(), piece.end(), -1);
-
   int passes = 0;
   constexpr char older = 0, outside = 1, fresh = 2;  // unknowns of earlier layers, none, this one
   std::vector<char> side(r.size(), outside);
@@ -172,10 +185,7 @@ ScaledField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Matrix& A,
   report.iterations.emplace_back("heat passes", passes);
   for (Eigen::Index i = 0; i < n; ++i)
     if (field.layer[i] < 0) field.x.segment(i * block_, block_).setZero();
-  if (left > 0)
-    report.warn("direction-missing", "heat did not reach " + counted(left, "element", "elements") +
-                                         ": the Poisson step fills in the distance there, less "
-                                         "exactly. A larger option time-scale reaches farther");
+  warn_of_missing(field, piece, report);
   return field;
 }
 

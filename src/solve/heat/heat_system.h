@@ -36,14 +36,15 @@ class HeatSystem {
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
   /// lower: the matrix's lower triangle; unknowns come in blocks of `block` (a real matrix of
-  /// complex unknowns has 2). size: blocks; sqrt(M / t), see HeatWindows. order: of elimination, of
-  /// the blocks; found here if empty. One factorization is made if it takes less than 4 GB for many
+  /// complex unknowns has 2). M: blocks; must outlive this. order: of elimination, of the blocks;
+  /// found here if empty. One factorization is made if it takes less than 4 GB for many
   /// solves, .4 GB for one. structure: of the factor in this order, if it is known.
-  HeatSystem(std::shared_ptr<const Matrix> lower, int block, VecX size, SolveHint hint,
+  HeatSystem(std::shared_ptr<const Matrix> lower, int block, const VecX& M, SolveHint hint,
              const Task& task, Ordering order = {},
              std::shared_ptr<const Elimination> structure = nullptr);
   /// A matrix too large to be factored, which is never made as a whole unless windows do not fit.
-  HeatSystem(std::shared_ptr<const HermitianRows<Scalar>> rows, VecX size, const Ordering& order);
+  HeatSystem(std::shared_ptr<const HermitianRows<Scalar>> rows, const VecX& M,
+             const Ordering& order);
 
   /// Solves by HeatWindows or, on one factorization, by renormalised passes: the first solve is
   /// good to 1e-250 of its largest entry; the rest is solved again from the residual that

@@ -15,12 +15,13 @@
 namespace littoral {
 
 namespace {
-constexpr int window = 40;            // decay lengths kept of every window
-constexpr int shortest_overlap = 20;  // and solved for beyond: the error made at the far end
-                                      // arrives at what is kept exp(-2 * overlap) times smaller
-constexpr int longest_overlap = 80;
-constexpr double around_prescribed =
-    18;  // what lies beyond does not change a source that prescribes values
+// In strides of 16 decay lengths.
+constexpr int window = 2;            // kept of every window
+constexpr int shortest_overlap = 1;  // and solved for beyond: the error made at the far end arrives
+                                     // at what is kept exp(-2 * 16 * overlap) times smaller
+constexpr int longest_overlap = 4;
+constexpr int around_prescribed = 1;  // what lies beyond does not change a source that prescribes
+                                      // values
 constexpr double negligible = 1e-250;
 constexpr std::size_t window_grain = 4096;
 /// The same with several layers made one where the range of numbers allows it.
@@ -48,29 +49,12 @@ ScaledField<Scalar> with_fewer_layers(ScaledField<Scalar> field, int block) {
   return field;
 }
 
-Outward in_steps(const std::vector<double>& d) {
-  Outward out;
-  for (const double at : d) {
-    if (!(at < infinity)) continue;
-    const auto k = static_cast<std::size_t>(at);
-    if (k + 1 >= out.begin.size()) out.begin.resize(k + 2, 0);
-    ++out.begin[k + 1];
-  }
-  std::partial_sum(out.begin.begin(), out.begin.end(), out.begin.begin());
-  out.blocks.resize(out.begin.back());
-  std::vector<std::size_t> next = out.begin;
-  for (std::size_t i = 0; i < d.size(); ++i)
-    if (d[i] < infinity) out.blocks[next[static_cast<std::size_t>(d[i])]++] = static_cast<int>(i);
-  return out;
-}
-
 }  // namespace
 
-VecX decay_lengths(const VecX& M, double t) { return (M.array().max(0.0) / t).sqrt(); }
-
 template <class Scalar>
-HeatWindows<Scalar>::HeatWindows(std::shared_ptr<const Rows> A, VecX size, const Ordering& order)
-    : A_(std::move(A)), block_(A_->block()), size_(std::move(size)), position_(order.size()) {
+HeatWindows<Scalar>::HeatWindows(std::shared_ptr<const Rows> A, const VecX& M,
+                                 const Ordering& order)
+    : A_(std::move(A)), block_(A_->block()), M_(M), position_(order.size()) {
   for (std::size_t k = 0; k < order.size(); ++k) position_[order[k]] = k;
 }
 
@@ -82,40 +66,11 @@ Ordering HeatWindows<Scalar>::order() const {
 }
 
 template <class Scalar>
-std::vector<double> HeatWindows<Scalar>::distances(const std::vector<int>& from, double limit,
-                                                   const Task& task) const {
-  // Dijkstra's algorithm with buckets one decay length wide, settled in any order inside of one.
-  std::vector<double> d(position_.size(), infinity);
-  std::vector<std::vector<std::pair<double, int>>> buckets(1);
-  std::vector<int> beside;
-  for (int i : from) {
-    d[i] = 0;
-    buckets[0].emplace_back(0, i);
-  }
-  for (std::size_t b = 0; b < buckets.size() && static_cast<double>(b) <= limit; ++b) {
-    stop_if_cancelled(task);
-    for (std::size_t k = 0; k < buckets[b].size(); ++k) {  // grows meanwhile
-      const auto [at, i] = buckets[b][k];
-      if (at > d[i]) continue;
-      A_->neighbours(i, beside);
-      for (const int j : beside) {
-        const double next = at + 2 * std::asinh(0.25 * (size_[i] + size_[j]) + 1e-3);
-        if (!(next < d[j])) continue;
-        d[j] = next;
-        const std::size_t bucket = next;
-        if (bucket >= buckets.size()) buckets.resize(bucket + 1);
-        buckets[bucket].emplace_back(next, j);
-      }
-    }
-    std::vector<std::pair<double, int>>().swap(buckets[b]);
-  }
-  return d;
-}
-
-template <class Scalar>
-std::vector<std::vector<int>> HeatWindows<Scalar>::parts(std::span<const int> blocks) const {
-  constexpr int outside = -2, in_none = -1;
-  std::vector<int> part(position_.size(), outside), in_order(position_.size(), -1);
+std::vector<std::vector<int>> HeatWindows<Scalar>::parts(std::span<const int> blocks,
+                                                         std::vector<int>& local) const {
+  constexpr int outside = -1, in_none = -2;
+  std::vector<int>& part = local;
+  std::vector<int> in_order(position_.size(), -1);
   for (const int i : blocks) {
     part[i] = in_none;
     in_order[position_[i]] = i;
@@ -128,6 +83,7 @@ std::vector<std::vector<int>> HeatWindows<Scalar>::parts(std::span<const int> bl
     own.assign(1, first);
     part[first] = number;
     for (std::size_t k = 0; k < own.size(); ++k) {  // grows meanwhile
+      if (k + blocks_ahead < own.size()) A_->fetch(own[k + blocks_ahead]);
       A_->neighbours(own[k], beside);
       for (const int j : beside)
         if (part[j] == in_none) {
@@ -140,7 +96,7 @@ std::vector<std::vector<int>> HeatWindows<Scalar>::parts(std::span<const int> bl
   std::vector<std::vector<int>> out(sizes.size());
   for (std::size_t p = 0; p < out.size(); ++p) out[p].reserve(sizes[p]);
   for (const int i : in_order)
-    if (i >= 0) out[part[i]].push_back(i);
+    if (i >= 0) out[std::exchange(part[i], outside)].push_back(i);
   return out;
 }
 
@@ -154,13 +110,13 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<S
   std::vector<int> from;
   for (const int i : b.blocks)
     if (piece[i] >= 0) from.push_back(i);
-  const Outward outward = in_steps(distances(from, infinity, task));
+  OutwardMarch<Scalar> march(*A_, M_, from);
 
   std::optional<ScaledField<Scalar>> best;
   double least = 1e-9;  // more is not an answer
   int best_windows = 0;
   for (int overlap = shortest_overlap; overlap <= longest_overlap; overlap *= 2) {
-    auto field = solve(b, outward, overlap, task);
+    auto field = solve(b, march, overlap, task);
     if (!field) break;
     const double error = misfit(*field, b, task);
     if (best && !(error < 0.1 * least)) break;  // round-off
@@ -178,14 +134,19 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<S
 
 template <class Scalar>
 std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<Scalar>& b,
-                                                              const Outward& outward, int overlap,
-                                                              const Task& task) const {
-  const std::vector<int>& order = outward.blocks;
-  ScaledField<Scalar> field{
-      Vector::Zero(index(position_.size()) * block_), std::vector<int>(position_.size(), -1), {}};
-  std::vector<int> local(position_.size(), -1);
-  std::vector<char> known(position_.size(), 0), inside(position_.size(), 0);
-  // The parts of a window do not depend on the window before: the next one is made ready beside.
+                                                              OutwardMarch<Scalar>& march,
+                                                              int overlap, const Task& task) const {
+  const std::size_t n = position_.size();
+  ScaledField<Scalar> field{Vector::Zero(index(n) * block_), std::vector<int>(n, -1), {}};
+  std::vector<int> local(n, -1);
+  std::vector<char> known(n, 0), inside(n, 0);
+  const int* const order = march.blocks();
+  // How far a window reaches and its parts do not depend on the window before: the next one is made
+  // ready beside.
+  struct Window {
+    std::size_t start, kept, end;  // in the order
+    bool last;
+  } ready{};
   std::vector<std::vector<int>> waiting;  // of a window
   std::size_t taken = 0;
   int of_window = -1;
@@ -193,30 +154,36 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<S
   const auto make_ready = [&](const Task& stop) {
     if (taken == waiting.size()) {
       ++of_window;
-      const std::size_t first = outward.nearer_than(of_window * window);
-      const std::size_t last = outward.nearer_than((of_window + 1) * window + overlap);
-      waiting = parts({order.data() + first, last - first});
+      const int from = of_window * window, kept = from + window;
+      march.reach(kept + overlap, stop);
+      ready = {march.nearer_than(from), march.nearer_than(kept), march.nearer_than(kept + overlap),
+               false};
+      ready.last = march.ended() && ready.kept == ready.end;
+      waiting = parts({order + ready.start, ready.end - ready.start}, local);
       taken = 0;
     }
     if (taken < waiting.size())
       next = std::make_unique<HeatRegion<Scalar>>(*A_, std::move(waiting[taken++]), local, stop);
+    if (taken < waiting.size())  // beside the last part the next window is divided
+      march.reach((of_window + 2) * window + overlap, stop);
   };
   make_ready(task);
-  int windows = 0;
-  for (std::size_t before = 0, start = 0; start < order.size(); ++windows) {
-    task.checkpoint(double(start) / double(order.size()));
-    const std::size_t kept = outward.nearer_than((windows + 1) * window);
-    if (kept == start) return std::nullopt;  // steps longer than a window
-    for (std::size_t k = start; k < kept; ++k) inside[order[k]] = 1;
+  std::size_t before = 0;
+  for (bool more = ready.end > 0; more;) {
+    const Window here = ready;
+    const int number = of_window;
+    task.checkpoint(double(here.start) / double(n));
+    if (here.kept == here.start) return std::nullopt;  // steps longer than a window
+    for (std::size_t k = here.start; k < here.kept; ++k) inside[order[k]] = 1;
     double top = 0;
     for (bool is_last = false; !is_last;) {
       auto region = std::move(next);
       is_last = taken == waiting.size();
       std::optional<Beside> beside;
-      if (!is_last || kept < order.size()) beside.emplace(make_ready);
+      if (!is_last || !here.last) beside.emplace(make_ready);
       const std::vector<int>& blocks = region->blocks;
       Vector r = Vector::Zero(index(blocks.size()) * block_);
-      if (windows == 0)
+      if (number == 0)
         for (std::size_t k = 0; k < blocks.size(); ++k)
           if (const Scalar* value = b.at(blocks[k]))
             for (int c = 0; c < block_; ++c) r[index(k) * block_ + c] = value[c];
@@ -230,16 +197,16 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<S
       if (beside) beside->finish(task);
     }
     if (!(top > 0) || !std::isfinite(top)) return std::nullopt;
-    for (std::size_t k = start; k < kept; ++k) {
+    for (std::size_t k = here.start; k < here.kept; ++k) {
       const Eigen::Index i = order[k];
       if (!(block_magnitude(field.x, i, block_) > negligible * top)) return std::nullopt;
       field.x.segment(i * block_, block_) /= top;
-      field.layer[i] = windows;
+      field.layer[i] = number;
       known[i] = 1;
     }
     field.scale.push_back(top);
-    for (; before < start; ++before) known[order[before]] = 0;
-    start = kept;
+    for (; before < here.start; ++before) known[order[before]] = 0;
+    more = !here.last;
   }
   return field;
 }
@@ -302,9 +269,10 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::source_prescribing(
       known[i] = 1;
       from.push_back(i);
     }
-  const std::vector<double> d = distances(from, around_prescribed, task);
-  for (int i = 0; i < n; ++i)
-    if (!known[i] && d[i] <= around_prescribed) blocks.push_back(i);
+  OutwardMarch<Scalar> march(*A_, M_, from);
+  march.reach(around_prescribed, task);
+  for (std::size_t k = from.size(); k < march.nearer_than(around_prescribed); ++k)
+    blocks.push_back(march.blocks()[k]);
   std::sort(blocks.begin(), blocks.end(),
             [&](int i, int j) { return position_[i] < position_[j]; });
   Vector x = values;

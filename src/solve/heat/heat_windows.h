@@ -1,7 +1,6 @@
 #pragma once
 // (M + t L) x = b for small t without one big factorization: window by window, outward from b.
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,23 +10,10 @@
 #include "littoral/report.h"
 #include "solve/direct/hermitian_rows.h"
 #include "solve/direct/ordering.h"
+#include "solve/heat/outward_march.h"
 #include "solve/heat/scaled_field.h"
 
 namespace littoral {
-
-/// sqrt(M / t): the extent of the place a mass stands for, in units of the length over which heat
-/// decays in time t.
-VecX decay_lengths(const VecX& M, double t);
-
-/// Blocks by the decay lengths to them, rounded down, and in ascending order where these are equal.
-struct Outward {
-  std::vector<int> blocks;
-  std::vector<std::size_t> begin{0};  // of those k lengths away; and one more
-
-  std::size_t nearer_than(int lengths) const {
-    return begin[std::min(std::size_t(lengths), begin.size() - 1)];
-  }
-};
 
 /// A matrix whose inverse decays exponentially along its graph; immutable.
 template <class Scalar>
@@ -36,15 +22,15 @@ class HeatWindows {
   using Rows = HermitianRows<Scalar>;
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
-  /// size: blocks; extent of a block in decay lengths, sqrt(M / t): what a step between two blocks
-  /// is taken to be long. order: of elimination, of the blocks.
-  HeatWindows(std::shared_ptr<const Rows> A, VecX size, const Ordering& order);
+  /// M: blocks; must outlive this. order: of elimination, of the blocks.
+  HeatWindows(std::shared_ptr<const Rows> A, const VecX& M, const Ordering& order);
+  HeatWindows(std::shared_ptr<const Rows> A, const VecX&& M, const Ordering& order) = delete;
 
   /// Solves on the blocks up to some distance from the support of b, keeps all but the farthest,
   /// whose values lack what lies beyond, and goes on from the kept ones, scaled to 1. Time and
   /// memory grow like the number of unknowns. Each connected piece of b should have largest entry
-  /// 1. Where neighbouring windows do not fit together to round-off, as `size` misjudges how heat
-  /// decays, they overlap by more; nothing if that does not help.
+  /// 1. Where neighbouring windows do not fit together to round-off, as heat decays otherwise than
+  /// OutwardMarch says, they overlap by more; nothing if that does not help.
   std::optional<ScaledField<Scalar>> solve(const HeatSource<Scalar>& b,
                                            const std::vector<int>& piece, const Task& task,
                                            Report& report) const;
@@ -56,18 +42,17 @@ class HeatWindows {
   Ordering order() const;  // of elimination, of the blocks
 
  private:
-  std::vector<double> distances(const std::vector<int>& from, double limit, const Task& task) const;
   /// The connected parts of a region, which are solved one by one; each in the order of
-  /// elimination.
-  std::vector<std::vector<int>> parts(std::span<const int> blocks) const;
-  std::optional<ScaledField<Scalar>> solve(const HeatSource<Scalar>& b, const Outward& outward,
+  /// elimination. local: per block -1, which it is again afterwards.
+  std::vector<std::vector<int>> parts(std::span<const int> blocks, std::vector<int>& local) const;
+  std::optional<ScaledField<Scalar>> solve(const HeatSource<Scalar>& b, OutwardMarch<Scalar>& march,
                                            int overlap, const Task& task) const;
   double misfit(const ScaledField<Scalar>& field, const HeatSource<Scalar>& b,
                 const Task& task) const;
 
   std::shared_ptr<const Rows> A_;
   int block_;
-  VecX size_;
+  const VecX& M_;
   std::vector<int> position_;  // blocks: place in the order of elimination
 };
 

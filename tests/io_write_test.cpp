@@ -2,11 +2,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 
+#include "base/parallel.h"
 #include "comma_locale.h"
 #include "constants.h"
 #include "io/binary.h"
@@ -315,6 +318,58 @@ TEST_F(IoWrite, ErrorsNameThePath) {
   if (fs::exists("/dev/full")) {
     EXPECT_EQ(error("/dev/full"), "cannot write /dev/full: No space left on device");
   }
+}
+
+/// Bytes that tell where they are.
+std::string numbered(std::size_t n) {
+  std::string bytes(n, 0);
+  for (std::size_t i = 0; i < n; ++i) bytes[i] = static_cast<char>((i * 2654435761U) >> 13);
+  return bytes;
+}
+
+TEST_F(IoWrite, MuchIsWrittenBySeveralThreadsInItsPlace) {
+  const std::string much = numbered((9 << 20) + 12345), more = numbered(17 << 20);
+  const std::string expected = "begin" + much + "between" + more + much + "end";
+  for (const int threads : {1, 3}) {
+    set_thread_count(threads);
+    write_atomically(folder_ / "a.bin", [&](std::ostream& out) {
+      out << "begin";
+      out.write(much.data(), std::streamsize(much.size()));
+      EXPECT_EQ(out.tellp(), std::streamoff(5 + much.size()));
+      out << "between";
+      out.write(more.data(), std::streamsize(more.size()));
+      out.write(much.data(), std::streamsize(much.size()));
+      out << "end";
+    });
+    EXPECT_TRUE(read_bytes(folder_ / "a.bin") == expected) << threads;
+  }
+  set_thread_count(0);
+}
+
+TEST_F(IoWrite, MuchThatDoesNotFitIsAnErrorAndLeavesNothing) {
+  const std::string much = numbered(20 << 20);
+  const auto before = ::signal(SIGXFSZ, SIG_IGN);
+  rlimit unlimited;
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &unlimited), 0);
+  const rlimit limit = {12 << 20, unlimited.rlim_max};
+  for (const int threads : {1, 3}) {
+    set_thread_count(threads);
+    std::string found = "no error";
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
+    try {
+      write_atomically(folder_ / "a.bin", [&](std::ostream& out) {
+        out << "begin";
+        out.write(much.data(), std::streamsize(much.size()));
+      });
+    } catch (const IoError& e) {
+      found = e.what();
+    }
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &unlimited), 0);
+    EXPECT_EQ(found, "cannot write " + (folder_ / "a.bin").string() + ": File too large");
+    EXPECT_EQ(n_files(), 0);
+  }
+  set_thread_count(0);
+  ::signal(SIGXFSZ, before);
 }
 
 TEST_F(IoWrite, FollowsLinks) {

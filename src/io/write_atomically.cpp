@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "base/platform/process.h"
+#include "io/file_buffer.h"
 #include "io/formats.h"
 #include "io/write.h"
 #include "littoral/error.h"
@@ -59,17 +60,33 @@ class Unfinished {
                 "cannot-write");
 }
 
-void write_stream(const std::filesystem::path& path, const std::string& file,
-                  const std::function<void(std::ostream&)>& body) {
-  errno = 0;
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  if (!out) fail(path, errno ? errno : EIO);
+/// Through a buffer of a file; path is named where it fails.
+template <class Buffer>
+void write_through(Buffer& buffer, const std::filesystem::path& path,
+                   const std::function<void(std::ostream&)>& body) {
+  if (!buffer.is_open()) fail(path, errno ? errno : EIO);
+  std::ostream out(&buffer);
   errno = 0;
   body(out);
   const int error = out ? 0 : errno;
   errno = 0;
-  out.close();
-  if (!out) fail(path, error ? error : errno ? errno : EIO);
+  if (buffer.close() == nullptr || !out) fail(path, error ? error : errno ? errno : EIO);
+}
+
+void write_file(const std::filesystem::path& path, const std::string& file,
+                const std::function<void(std::ostream&)>& body) {
+  errno = 0;
+  FileBuffer buffer(file);
+  write_through(buffer, path, body);
+}
+
+/// To what is not a file: a device, a pipe.
+void write_stream(const std::filesystem::path& path,
+                  const std::function<void(std::ostream&)>& body) {
+  errno = 0;
+  std::filebuf buffer;
+  buffer.open(path.string(), std::ios::out | std::ios::binary | std::ios::trunc);
+  write_through(buffer, path, body);
 }
 
 std::string temporary_name(const std::filesystem::path& target) {
@@ -110,14 +127,14 @@ void write_atomically(const std::filesystem::path& path,
   const auto status = std::filesystem::status(path, error);
   if (std::filesystem::is_directory(status)) fail(path, EISDIR);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    write_stream(path, path.string(), body);
+    write_stream(path, body);
     return;
   }
   check_folder(path);
   const std::filesystem::path resolved = std::filesystem::weakly_canonical(path, error);
   const std::filesystem::path& target = error ? path : resolved;
   Unfinished temporary(temporary_name(target));
-  write_stream(path, temporary.path(), body);
+  write_file(path, temporary.path(), body);
   std::filesystem::rename(temporary.path(), target, error);
   if (error) fail(path, error.value());
   temporary.keep();
@@ -132,7 +149,7 @@ void check_writable(const std::filesystem::path& path) {
   check_folder(path);
   const std::filesystem::path resolved = std::filesystem::weakly_canonical(path, error);
   const Unfinished probe(temporary_name(error ? path : resolved));
-  write_stream(path, probe.path(), [](std::ostream&) {});
+  write_file(path, probe.path(), [](std::ostream&) {});
 }
 
 void remove_unfinished_files() noexcept {

@@ -1,0 +1,29 @@
+#include "base/platform/file_places.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+namespace littoral {
+
+FilePlaces::FilePlaces(const char* path) noexcept : file_(::open(path, O_WRONLY | O_CLOEXEC)) {}
+
+FilePlaces::~FilePlaces() {
+  if (file_ >= 0) ::close(file_);
+}
+
+int FilePlaces::write(const char* bytes, std::size_t n, long long place) noexcept {
+  while (n > 0) {
+    const auto written = ::pwrite(file_, bytes, n, static_cast<off_t>(place));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    if (written == 0) return ENOSPC;
+    bytes += written;
+    place += written;
+    n -= static_cast<std::size_t>(written);
+  }
+  return 0;
+}
+
+}  // namespace littoral

@@ -61,8 +61,7 @@ class Unfinished {
 }
 
 /// Through a buffer of a file; path is named where it fails.
-template <class Buffer>
-void write_through(Buffer& buffer, const std::filesystem::path& path,
+void write_through(std::filebuf& buffer, const std::filesystem::path& path,
                    const std::function<void(std::ostream&)>& body) {
   if (!buffer.is_open()) fail(path, errno ? errno : EIO);
   std::ostream out(&buffer);

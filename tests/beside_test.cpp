@@ -4,11 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <memory>
 #include <stdexcept>
+#include <string>
 #include <thread>
+#include <vector>
 
+#include "base/now_and_then.h"
 #include "base/parallel.h"
 #include "base/platform/floating_point.h"
 #include "littoral/error.h"
@@ -136,6 +141,92 @@ TEST(Beside, GivesWayToNobodyOnceItIsWaitedFor) {
   work.finish({});
   over = true;
   busy.join();
+  set_thread_count(0);
+}
+
+/// Pieces of its loop wait for each other: the work's own thread alone would never end.
+TEST(Beside, WhoWaitsTakesPartInItsLoops) {
+  set_thread_count(2);
+  const std::uint64_t mode = floating_point_mode();
+  for (int round = 0; round < 20; ++round) {
+    std::atomic<int> there{0}, of_nested{0};
+    std::vector<int> done(100, 0);
+    std::uint64_t of_piece[2] = {0, 0};
+    std::unique_ptr<Beside> work;
+    {
+      const FlushSubnormals flush;
+      work = std::make_unique<Beside>([&](const Task&) {
+        parallel_for(2, 1, [&](std::size_t piece, std::size_t) {
+          of_piece[piece] = floating_point_mode();
+          ++there;
+          while (there < 2) std::this_thread::yield();
+          const auto by = std::this_thread::get_id();
+          parallel_for(4, 1, [&](std::size_t, std::size_t) {
+            of_nested += by == std::this_thread::get_id();
+          });
+        });
+        parallel_for(done.size(), 1, [&](std::size_t i, std::size_t) { ++done[i]; });
+      });
+    }
+    work->finish({});
+    EXPECT_EQ(there, 2);
+    EXPECT_EQ(of_nested, 8);
+    EXPECT_EQ(std::count(done.begin(), done.end(), 1), 100);
+    EXPECT_EQ(of_piece[0], of_piece[1]);
+    EXPECT_EQ(floating_point_mode(), mode);
+  }
+  set_thread_count(0);
+}
+
+TEST(Beside, LoopsEndWhereNobodyWaitsForThem) {
+  set_thread_count(2);
+  std::vector<int> done(1000, 0);
+  std::atomic<bool> over{false};
+  Beside work([&](const Task&) {
+    parallel_for(done.size(), 1, [&](std::size_t i, std::size_t) { ++done[i]; });
+    over = true;
+  });
+  while (!over) std::this_thread::yield();
+  work.finish({});
+  EXPECT_EQ(std::count(done.begin(), done.end(), 1), 1000);
+  set_thread_count(0);
+}
+
+TEST(Beside, ThrowsWhatALowestPieceThrew) {
+  set_thread_count(2);
+  for (int round = 0; round < 20; ++round) {
+    Beside work([](const Task&) {
+      std::atomic<int> there{0};
+      parallel_for(2, 1, [&](std::size_t piece, std::size_t) {
+        ++there;
+        while (there < 2) std::this_thread::yield();
+        throw std::runtime_error(std::to_string(piece));
+      });
+    });
+    try {
+      work.finish({});
+      ADD_FAILURE() << "nothing was thrown";
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "0");
+    }
+  }
+  set_thread_count(0);
+}
+
+/// Pieces go on until the one that waits has given up; it leaves after the piece it is in.
+TEST(Beside, TakingPartCanBeCancelled) {
+  set_thread_count(2);
+  const CancelToken cancel;
+  std::atomic<int> there{0};
+  Beside work([&](const Task& until_nobody_waits) {
+    parallel_for(1000, 1, [&](std::size_t, std::size_t) {
+      if (++there == 2) cancel.cancel();
+      while (there < 2) std::this_thread::yield();
+      stop_if_cancelled(until_nobody_waits);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    });
+  });
+  EXPECT_THROW(work.finish(Task(cancel)), Cancelled);
   set_thread_count(0);
 }
 

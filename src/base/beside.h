@@ -11,8 +11,11 @@ namespace littoral {
 /// Work on a thread of its own while the caller goes on, where more than one thread is to be used
 /// and the system has a place for another; otherwise work that is put off. Where it calls
 /// `Task::checkpoint` it gives way to loops that keep as many threads busy as are to be used.
+/// Whoever waits for it takes part in its loops.
 class Beside {
  public:
+  class Shared;
+
   /// What the work is given asks it to stop when nobody waits for it any more.
   explicit Beside(std::function<void(const Task&)> work);
   /// Returns when it has stopped.
@@ -25,7 +28,6 @@ class Beside {
   void finish(const Task& task);
 
  private:
-  struct Shared;
   std::unique_ptr<Shared> shared_;
 };
 

@@ -6,7 +6,6 @@
 #include <condition_variable>
 #include <cstdint>
 #include <exception>
-#include <future>
 #include <limits>
 #include <mutex>
 #include <new>
@@ -28,7 +27,8 @@ thread_local int requested_threads = 0;
 std::atomic<int> most_threads{std::numeric_limits<int>::max()};
 thread_local bool inside_parallel = false;
 thread_local ThreadCrew* kept_crew = nullptr;
-std::atomic<int> at_work{0};  // threads in loops that several share
+thread_local Beside::Shared* loops_open_to = nullptr;  // the caller of this thread's work
+std::atomic<int> at_work{0};                           // threads in loops that several share
 
 /// Counts its thread among those.
 struct AtWork {
@@ -70,12 +70,18 @@ class SharedLoop {
   SharedLoop(std::size_t n, std::function<void(std::size_t)>&& body,
              std::size_t shares = 1) = delete;  // it must stay
 
-  void work(std::size_t thread = 0) {
-    inside_parallel = true;
+  /// Returns when nothing is left to begin, or `enough` says so between pieces.
+  void work(std::size_t thread = 0, const std::function<bool()>& enough = {}) {
+    const bool inside = std::exchange(inside_parallel, true);
+    const double limit = memory_limit();
+    const std::uint64_t mode = floating_point_mode();
     set_memory_limit(limit_);
     set_floating_point_mode(mode_);
-    for (std::size_t s = 0; s < shares_.size(); ++s) take(shares_[(thread + s) % shares_.size()]);
-    inside_parallel = false;
+    for (std::size_t s = 0; s < shares_.size(); ++s)
+      take(shares_[(thread + s) % shares_.size()], enough);
+    set_floating_point_mode(mode);
+    set_memory_limit(limit);
+    inside_parallel = inside;
   }
   void rethrow() const {
     if (error_) std::rethrow_exception(error_);
@@ -87,8 +93,8 @@ class SharedLoop {
     std::size_t end = 0;
   };
 
-  void take(Share& share) {
-    for (std::size_t i; (i = share.next.fetch_add(1)) < share.end;) {
+  void take(Share& share, const std::function<bool()>& enough) {
+    for (std::size_t i; !(enough && enough()) && (i = share.next.fetch_add(1)) < share.end;) {
       try {
         body_(i);
       } catch (...) {
@@ -124,6 +130,95 @@ void add_threads(std::vector<std::thread>& threads, std::size_t n, const Work& w
   }
 }
 
+class Beside::Shared {
+ public:
+  explicit Shared(std::function<void(const Task&)> what) : work_(std::move(what)) {}
+  ~Shared() {
+    stop_.cancel();
+    for (auto& thread : threads_) thread.join();
+  }
+  Shared(const Shared&) = delete;
+  Shared& operator=(const Shared&) = delete;
+
+  void start() {
+    add_threads(threads_, 1, [this] {
+      loops_open_to = this;
+      whole_.work();
+      const std::lock_guard lock(mutex_);
+      over_ = true;
+      changed_.notify_one();
+    });
+  }
+
+  /// A loop of the work's own thread, to whose caller it is open.
+  void share(SharedLoop& loop) {
+    {
+      const std::lock_guard lock(mutex_);
+      open_ = &loop;
+      ++round_;
+    }
+    changed_.notify_one();
+    loops_open_to = nullptr;  // loops inside run in their callers
+    {
+      const AtWork counted;
+      loop.work();
+    }
+    loops_open_to = this;
+    std::unique_lock lock(mutex_);
+    open_ = nullptr;
+    changed_.wait(lock, [&] { return !helped_; });
+  }
+
+  void finish(const Task& task) {
+    if (threads_.empty()) {
+      work_(task);
+      return;
+    }
+    awaited_ = true;
+    std::unique_lock lock(mutex_);
+    for (std::uint64_t seen = 0; !over_; stop_if_cancelled(task)) {
+      const auto something = [&] { return over_ || (open_ != nullptr && round_ != seen); };
+      if (!changed_.wait_for(lock, std::chrono::milliseconds(20), something) || over_) continue;
+      seen = round_;
+      helped_ = true;
+      SharedLoop& loop = *open_;
+      lock.unlock();
+      {
+        const AtWork counted;
+        loop.work(1, [&] { return task.cancelled(); });
+      }
+      lock.lock();
+      helped_ = false;
+      changed_.notify_one();
+    }
+    whole_.rethrow();
+  }
+
+ private:
+  /// Leaves the processors to loops that keep all threads busy, until somebody waits: such loops
+  /// are what the caller has to do, and when they end there is a thread to spare.
+  void give_way() const {
+    while (at_work.load() >= threads_wanted_ && !awaited_.load() && !stop_.cancelled())
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+  }
+
+  const std::function<void(const Task&)> work_;
+  const CancelToken stop_;
+  const int threads_wanted_ = thread_count();
+  std::atomic<bool> awaited_{false};
+  const std::function<void(std::size_t)> piece_ = [this](std::size_t) {
+    work_(Task(stop_, [this](double, const std::string&) { give_way(); }));
+  };
+  SharedLoop whole_{1, piece_};
+  std::mutex mutex_;  // of all that follows but the thread
+  std::condition_variable changed_;
+  SharedLoop* open_ = nullptr;  // which the work's thread is in
+  std::uint64_t round_ = 0;     // loops so far
+  bool helped_ = false;         // the caller is in it
+  bool over_ = false;
+  std::vector<std::thread> threads_;  // one or none
+};
+
 void parallel_for(std::size_t n, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {
   if (n == 0) return;
@@ -133,6 +228,12 @@ void parallel_for(std::size_t n, std::size_t grain,
   const std::function<void(std::size_t)> piece = [&](std::size_t p) {
     body(p * grain, std::min(n, (p + 1) * grain));
   };
+  if (loops_open_to != nullptr && pieces > 1) {
+    SharedLoop loop(pieces, piece);
+    loops_open_to->share(loop);
+    loop.rethrow();
+    return;
+  }
   if (workers <= 1 || inside_parallel) {
     for (std::size_t p = 0; p < pieces; ++p) piece(p);
     return;
@@ -160,53 +261,14 @@ void parallel_ranges(std::size_t n, std::size_t least,
   parallel_for(n, std::max(n / ranges + 1, least), body);
 }
 
-struct Beside::Shared {
-  explicit Shared(std::function<void(const Task&)> what) : work(std::move(what)) {}
-
-  /// Leaves the processors to loops that keep all threads busy, until somebody waits: such loops
-  /// are what the caller has to do, and when they end there is a thread to spare.
-  void give_way() const {
-    while (at_work.load() >= threads_wanted && !awaited.load() && !stop.cancelled())
-      std::this_thread::sleep_for(std::chrono::microseconds(200));
-  }
-
-  const std::function<void(const Task&)> work;
-  const CancelToken stop;
-  const int threads_wanted = thread_count();
-  std::atomic<bool> awaited{false};
-  const std::function<void(std::size_t)> piece = [this](std::size_t) {
-    work(Task(stop, [this](double, const std::string&) { give_way(); }));
-  };
-  SharedLoop loop{1, piece};
-  std::promise<void> over;
-  std::future<void> ended = over.get_future();
-  std::vector<std::thread> threads;  // one or none
-};
-
 Beside::Beside(std::function<void(const Task&)> work)
     : shared_(std::make_unique<Shared>(std::move(work))) {
-  if (thread_count() > 1 && !inside_parallel)
-    add_threads(shared_->threads, 1, [shared = shared_.get()] {
-      shared->loop.work();
-      shared->over.set_value();
-    });
+  if (thread_count() > 1 && !inside_parallel) shared_->start();
 }
 
-Beside::~Beside() {
-  shared_->stop.cancel();
-  for (auto& thread : shared_->threads) thread.join();
-}
+Beside::~Beside() = default;
 
-void Beside::finish(const Task& task) {
-  if (shared_->threads.empty()) {
-    shared_->work(task);
-    return;
-  }
-  shared_->awaited = true;
-  while (shared_->ended.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready)
-    stop_if_cancelled(task);
-  shared_->loop.rethrow();
-}
+void Beside::finish(const Task& task) { shared_->finish(task); }
 
 struct ThreadCrew::Shared {
   static constexpr int patience = 8000;  // looks, some 80 us, before a thread goes to sleep

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/beside.h"
+#include "base/disjoint_sets.h"
 #include "base/index.h"
 #include "base/now_and_then.h"
 #include "base/parallel_sum.h"
@@ -39,12 +40,14 @@ ScaledField<Scalar> with_fewer_layers(ScaledField<Scalar> field, int block) {
     }
     layer.push_back(int_size(scale) - 1);
   }
-  for (std::size_t i = 0; i < field.layer.size(); ++i) {
-    int& p = field.layer[i];
-    if (p < 0) continue;
-    field.x.segment(index(i) * block, block) *= unit[p];
-    p = layer[p];
-  }
+  parallel_for(field.layer.size(), window_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      int& p = field.layer[i];
+      if (p < 0) continue;
+      field.x.segment(index(i) * block, block) *= unit[p];
+      p = layer[p];
+    }
+  });
   field.scale = std::move(scale);
   return field;
 }
@@ -68,35 +71,62 @@ Ordering HeatWindows<Scalar>::order() const {
 template <class Scalar>
 std::vector<std::vector<int>> HeatWindows<Scalar>::parts(std::span<const int> blocks,
                                                          std::vector<int>& local) const {
-  constexpr int outside = -1, in_none = -2;
-  std::vector<int>& part = local;
   std::vector<int> in_order(position_.size(), -1);
-  for (const int i : blocks) {
-    part[i] = in_none;
-    in_order[position_[i]] = i;
-  }
-  std::vector<std::size_t> sizes;
-  std::vector<int> own, beside;
-  for (const int first : blocks) {
-    if (part[first] != in_none) continue;
-    const int number = int_size(sizes);
-    own.assign(1, first);
-    part[first] = number;
-    for (std::size_t k = 0; k < own.size(); ++k) {  // grows meanwhile
-      if (k + blocks_ahead < own.size()) A_->fetch(own[k + blocks_ahead]);
-      A_->neighbours(own[k], beside);
-      for (const int j : beside)
-        if (part[j] == in_none) {
-          part[j] = number;
-          own.push_back(j);
+  for (const int i : blocks) in_order[position_[i]] = i;
+  in_order.erase(std::remove(in_order.begin(), in_order.end(), -1), in_order.end());
+  const std::size_t n = in_order.size();
+  for (std::size_t k = 0; k < n; ++k) local[in_order[k]] = static_cast<int>(k);
+  // Parts of runs of the order, which are joined along what couples them to runs before.
+  struct Run {
+    int parts = 0;
+    std::vector<std::pair<int, int>> joins;  // own parts and blocks of runs before, by their places
+  };
+  std::vector<Run> runs((n + window_grain - 1) / window_grain);
+  std::vector<int> part(n, -1);  // in its run
+  parallel_for(n, window_grain, [&](std::size_t begin, std::size_t end) {
+    Run here;
+    std::vector<int> own, beside;
+    for (std::size_t first = begin; first < end; ++first) {
+      if (part[first] >= 0) continue;
+      own.assign(1, static_cast<int>(first));
+      part[first] = here.parts;
+      for (std::size_t k = 0; k < own.size(); ++k) {  // grows meanwhile
+        if (k + blocks_ahead < own.size()) A_->fetch(in_order[own[k + blocks_ahead]]);
+        A_->neighbours(in_order[own[k]], beside);
+        for (const int j : beside) {
+          const int to = local[j];
+          if (to < 0 || std::size_t(to) >= end) continue;
+          if (std::size_t(to) < begin) {
+            here.joins.emplace_back(here.parts, to);
+          } else if (part[to] < 0) {
+            part[to] = here.parts;
+            own.push_back(to);
+          }
         }
+      }
+      ++here.parts;
     }
-    sizes.push_back(own.size());
+    runs[begin / window_grain] = std::move(here);
+  });
+  DisjointSets sets;
+  std::vector<int> first_set;
+  for (const Run& r : runs) {
+    first_set.push_back(sets.size());
+    for (int p = 0; p < r.parts; ++p) sets.add();
   }
-  std::vector<std::vector<int>> out(sizes.size());
-  for (std::size_t p = 0; p < out.size(); ++p) out[p].reserve(sizes[p]);
-  for (const int i : in_order)
-    if (i >= 0) out[std::exchange(part[i], outside)].push_back(i);
+  const auto set_of = [&](std::size_t k) { return first_set[k / window_grain] + part[k]; };
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    for (const auto& [p, k] : runs[r].joins) sets.join(first_set[r] + p, set_of(std::size_t(k)));
+  int count = 0;
+  const std::vector<int> number = sets.numbered(count);
+  std::vector<std::size_t> sizes(count, 0);
+  for (std::size_t k = 0; k < n; ++k) ++sizes[number[set_of(k)]];
+  std::vector<std::vector<int>> out(count);
+  for (int p = 0; p < count; ++p) out[p].reserve(sizes[p]);
+  for (std::size_t k = 0; k < n; ++k) {
+    local[in_order[k]] = -1;
+    out[number[set_of(k)]].push_back(in_order[k]);
+  }
   return out;
 }
 
@@ -164,8 +194,6 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<S
     }
     if (taken < waiting.size())
       next = std::make_unique<HeatRegion<Scalar>>(*A_, std::move(waiting[taken++]), local, stop);
-    if (taken < waiting.size())  // beside the last part the next window is divided
-      march.reach((of_window + 2) * window + overlap, stop);
   };
   make_ready(task);
   std::size_t before = 0;
@@ -180,7 +208,12 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<S
       auto region = std::move(next);
       is_last = taken == waiting.size();
       std::optional<Beside> beside;
-      if (!is_last || !here.last) beside.emplace(make_ready);
+      if (!is_last || !here.last)
+        beside.emplace([&](const Task& stop) {
+          make_ready(stop);
+          // Beside the last part the next window is divided.
+          if (taken < waiting.size()) march.reach((of_window + 2) * window + overlap, stop);
+        });
       const std::vector<int>& blocks = region->blocks;
       Vector r = Vector::Zero(index(blocks.size()) * block_);
       if (number == 0)
@@ -188,22 +221,34 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<S
           if (const Scalar* value = b.at(blocks[k]))
             for (int c = 0; c < block_; ++c) r[index(k) * block_ + c] = value[c];
       const Vector z = region->solve(*A_, known, field.x, std::move(r), task);
-      for (Eigen::Index k = 0; k < Eigen::Index(blocks.size()); ++k) {
-        if (!inside[blocks[k]]) continue;
-        top = std::max(top, block_magnitude(z, k, block_));
-        field.x.segment(Eigen::Index(blocks[k]) * block_, block_) = z.segment(k * block_, block_);
-      }
+      const auto keep = [&](std::size_t begin, std::size_t end) {
+        double top_here = 0;
+        for (std::size_t k = begin; k < end; ++k) {
+          if (!inside[blocks[k]]) continue;
+          top_here = std::max(top_here, block_magnitude(z, index(k), block_));
+          field.x.segment(Eigen::Index(blocks[k]) * block_, block_) =
+              z.segment(index(k) * block_, block_);
+        }
+        return top_here;
+      };
+      top = of_pieces(blocks.size(), window_grain, top, keep, Larger());
       region.reset();
       if (beside) beside->finish(task);
     }
     if (!(top > 0) || !std::isfinite(top)) return std::nullopt;
-    for (std::size_t k = here.start; k < here.kept; ++k) {
-      const Eigen::Index i = order[k];
-      if (!(block_magnitude(field.x, i, block_) > negligible * top)) return std::nullopt;
-      field.x.segment(i * block_, block_) /= top;
-      field.layer[i] = number;
-      known[i] = 1;
-    }
+    const auto scale = [&](std::size_t begin, std::size_t end) {
+      std::size_t too_small = 0;
+      for (std::size_t k = here.start + begin; k < here.start + end; ++k) {
+        const Eigen::Index i = order[k];
+        if (!(block_magnitude(field.x, i, block_) > negligible * top)) ++too_small;
+        field.x.segment(i * block_, block_) /= top;
+        field.layer[i] = number;
+        known[i] = 1;
+      }
+      return too_small;
+    };
+    if (of_pieces(here.kept - here.start, window_grain, std::size_t(0), scale) > 0)
+      return std::nullopt;
     field.scale.push_back(top);
     for (; before < here.start; ++before) known[order[before]] = 0;
     more = !here.last;

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <memory>
 #include <utility>
 
 #include "base/disjoint_sets.h"
 #include "base/fetch_ahead.h"
 #include "base/index.h"
+#include "base/large_vector.h"
 #include "base/now_and_then.h"
 #include "base/parallel.h"
 #include "operators/connection_laplacian.h"
@@ -61,14 +63,25 @@ class PerFace {
     if (T.n_faces() > most_kept) return;
     kept_.resize(T.n_faces());
     parallel_for(kept_.size(), face_grain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t f = begin; f < end; ++f) kept_[f] = compute_(f);
+      for (std::size_t f = begin; f < end; ++f) {
+        const std::array<Complex, 3> z = compute_(f);
+        for (int k = 0; k < 3; ++k) kept_[f][k] = {z[k].real(), z[k].imag()};
+      }
     });
   }
-  std::array<Complex, 3> operator()(int f) const { return kept_.empty() ? compute_(f) : kept_[f]; }
+  std::array<Complex, 3> operator()(int f) const {
+    if (kept_.empty()) return compute_(f);
+    std::array<Complex, 3> z;
+    for (int k = 0; k < 3; ++k) z[k] = {kept_[f][k].re, kept_[f][k].im};
+    return z;
+  }
 
  private:
+  struct Parts {  // left as they come by LargeVector
+    double re, im;
+  };
   Compute compute_;
-  std::vector<std::array<Complex, 3>> kept_;
+  LargeVector<std::array<Parts, 3>> kept_;
 };
 
 template <class Compute>
@@ -208,32 +221,33 @@ void find_pieces(const IntrinsicTriangulation& T, VectorDiffusion& V) {
   }
 }
 
-/// more(C) is called when all but C.L is there. The Laplacian is made beside both: it takes as
-/// long.
-template <class More>
-Calculus calculus_beside(const Triangulation& T, const Task& task, const More& more) {
-  Calculus C;
-  parallel_for(2, 1, [&](std::size_t half, std::size_t) {
-    if (half == 0) {
-      C.L = cotan_laplacian(*T, task);
-      return;
-    }
-    C.G = gradient(T);
-    C.A.resize(T->n_faces());
-    for (int f = 0; f < T->n_faces(); ++f)
-      C.A[f] = area_of_lengths(T->length(f, 0), T->length(f, 1), T->length(f, 2));
-    C.M = VecX::Zero(T->n_vertices);
-    add_thirds(C.A, T->faces.matrix(), C.M);
-    stop_if_cancelled(task);
-    C.component = T->component;
-    C.boundary.assign(T->n_vertices, 0);
-    for (int e = 0; e < T->n_edges(); ++e)
-      if (T->edge_use[e] == 1) C.boundary[T->edges(e, 0)] = C.boundary[T->edges(e, 1)] = 1;
-    more(C);
-  });
+using Jobs = std::vector<std::function<void()>>;
+
+/// Makes C and does what else is to be done, which may read C.A: on whatever threads are free.
+void make_calculus(const Triangulation& T, const Task& task, const Jobs& others, Calculus& C) {
   C.h = T->mean_edge_length;
   C.n_components = T->n_components;
-  return C;
+  C.A.resize(T->n_faces());
+  parallel_for(T->n_faces(), face_grain, [&](std::size_t begin, std::size_t end) {
+    for (Eigen::Index f = index(begin); f < index(end); ++f)
+      C.A[f] = area_of_lengths(T->length(f, 0), T->length(f, 1), T->length(f, 2));
+  });
+  Jobs jobs{[&] { C.L = cotan_laplacian(*T, task); },  // the longest
+            [&] { C.G = gradient(T); },
+            [&] {
+              C.M = VecX::Zero(T->n_vertices);
+              add_thirds(C.A, T->faces.matrix(), C.M);
+              C.component = T->component;
+              C.boundary.assign(T->n_vertices, 0);
+              for (int e = 0; e < T->n_edges(); ++e)
+                if (T->edge_use[e] == 1)
+                  C.boundary[T->edges(e, 0)] = C.boundary[T->edges(e, 1)] = 1;
+            }};
+  jobs.insert(jobs.end(), others.begin(), others.end());
+  parallel_for(jobs.size(), 1, [&](std::size_t j, std::size_t) {
+    stop_if_cancelled(task);
+    jobs[j]();
+  });
 }
 
 }  // namespace
@@ -275,7 +289,9 @@ VecX Calculus::divergence(const VecX& Y) const {
 
 Calculus triangle_calculus(const std::shared_ptr<const IntrinsicTriangulation>& T,
                            const Task& task) {
-  return calculus_beside(T, task, [](const Calculus&) {});
+  Calculus C;
+  make_calculus(T, task, {}, C);
+  return C;
 }
 
 Operators triangle_operators(const IntrinsicTriangulation& T) {
@@ -289,14 +305,13 @@ Operators triangle_operators(const std::shared_ptr<const IntrinsicTriangulation>
   ops.unit = T->unit;
   VectorDiffusion& V = ops.vector;
   V.n = T->n_edges();
-  ops.scalar = calculus_beside(T, task, [&](const Calculus& C) {
+  const auto masses = [&] {
     V.M = VecX::Zero(V.n);
-    add_thirds(C.A, T->side_edge.matrix(), V.M);  // eq. 7
-    stop_if_cancelled(task);
-    V.to_cells = edges_to_faces(T);
-    stop_if_cancelled(task);
-    find_pieces(*T, V);
-  });
+    add_thirds(ops.scalar.A, T->side_edge.matrix(), V.M);  // eq. 7
+  };
+  make_calculus(T, task,
+                {[&] { V.to_cells = edges_to_faces(T); }, [&] { find_pieces(*T, V); }, masses},
+                ops.scalar);
   V.ends = T->edges;
   if (T->has_seams()) {
     V.L_real = [T](const Task&) { return connection_laplacian_real(*T); };

@@ -46,6 +46,11 @@ double memory_limit() { return limit_of_thread; }
 
 void return_freed_memory() {
 #if defined(__GLIBC__)
+#if __GLIBC_PREREQ(2, 33)
+  // Pages take long to come again: what is soon asked for anyway is kept.
+  constexpr std::size_t kept = std::size_t(1) << 28;
+  if (mallinfo2().fordblks < kept) return;
+#endif
   malloc_trim(0);
 #endif
 }

@@ -25,8 +25,8 @@ double peak_memory();
 /// system does not say.
 double writable_memory();
 
-/// Gives memory that was freed back to the system where it would be kept for later; between stages
-/// that take much.
+/// Gives memory that was freed back to the system where much would be kept for later; between
+/// stages that take much.
 void return_freed_memory();
 
 /// Throws IoError, with both numbers and the remedy, if `bytes` exceeds the available memory.

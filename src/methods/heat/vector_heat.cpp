@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "base/index.h"
+#include "base/parallel.h"
 #include "methods/heat/heat_matrix.h"
 
 namespace littoral {
@@ -13,9 +15,15 @@ Eigen::Map<const VecXc> as_complex(const VecX& X) {
 }
 
 ScaledField<double> as_pairs(ScaledField<Complex> field) {
-  const auto* pairs = reinterpret_cast<const double*>(field.x.data());  // as C++ lays them out
-  return {Eigen::Map<const VecX>(pairs, 2 * field.x.size()), std::move(field.layer),
-          std::move(field.scale)};
+  constexpr std::size_t pair_grain = 1 << 16;
+  VecX x(2 * field.x.size());
+  parallel_for(std::size_t(field.x.size()), pair_grain, [&](std::size_t begin, std::size_t end) {
+    for (Eigen::Index i = index(begin); i < index(end); ++i) {
+      x[2 * i] = field.x[i].real();
+      x[2 * i + 1] = field.x[i].imag();
+    }
+  });
+  return {std::move(x), std::move(field.layer), std::move(field.scale)};
 }
 
 }  // namespace

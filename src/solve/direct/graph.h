@@ -3,15 +3,17 @@
 
 #include <vector>
 
+#include "base/large_vector.h"
+
 namespace littoral {
 
 /// An undirected graph without loops: each edge is in the rows of both its ends. Vertices and edges
 /// have weights; those of edges are left out where all are one.
 struct Graph {
   std::vector<int> begin{0};     // rows: vertices + 1
-  std::vector<int> to;           // begin.back() of them; what follows means nothing
+  LargeVector<int> to;           // begin.back() of them; what follows means nothing
   std::vector<int> weight;       // vertices
-  std::vector<int> edge_weight;  // as `to`, or empty
+  LargeVector<int> edge_weight;  // as `to`, or empty
 
   int size() const { return static_cast<int>(weight.size()); }
 };

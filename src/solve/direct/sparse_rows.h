@@ -44,6 +44,11 @@ class RowInMaking {
  private:
   friend SpRows made_rows(Eigen::Index, Eigen::Index, const std::function<void(int, RowInMaking&)>&,
                           const Task&);
+  void reserve(std::size_t times) {  // so many times what there is
+    columns_.reserve(times * columns_.size());
+    values_.reserve(times * values_.size());
+  }
+
   std::vector<int> place_;  // of columns, in the row that had them last
   std::vector<int> columns_;
   std::vector<double> values_;  // of this row and those before it

@@ -5,6 +5,7 @@
 #include "base/index.h"
 #include "base/parallel.h"
 #include "base/platform/memory.h"
+#include "base/thread_crew.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -67,6 +68,7 @@ SpMat lower_triangle(const SpRows& A) {
 }  // namespace
 
 Multigrid::Multigrid(SpMat&& lower, const Task& task) {
+  const KeepThreads keep_threads;
   levels_.emplace_back().A = full_rows(lower);
   SpMat().swap(lower);
   return_freed_memory();

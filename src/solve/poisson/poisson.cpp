@@ -192,8 +192,10 @@ DefiniteSystem Poisson::penalized(const SpMat& A, const VecX& weight,
   const std::vector<int> at = loose(fixed);
   if (iterates())
     return DefiniteSystem::by_multigrid(
-        [L = L_, at, d = mean_diagonal_, A, weight] {
-          return with_rows(lifted(*L, at, d), A, weight);
+        [L = L_, at, d = mean_diagonal_, A, weight]() -> SpMat {
+          SpMat K = lifted(*L, at, d);
+          if (add_rows_in_place(K, A, weight)) return K;
+          return with_rows(K, A, weight);
         },
         unknowns_of(A));
   SpMat K = pinned(at);

@@ -26,7 +26,7 @@ all_stages=("${test_stages[@]}" quick package "${long_stages[@]}")
 # Suites that take longer than a few seconds each; `quick` leaves them out.
 slow='Slow|^Cases/|^Domains/OnEveryDomain|^(Multigrid|Regularized[A-Za-z]*|AllPairs|HeatPoints|Sharpen|SignedHeatTets|Picture|Repair|RepairWalls|TracedScene|Quadratic[A-Za-z]*|SignedQuadratic)\.'
 # Suites that several threads work in.
-shared_between_threads='Parallel|Thread|Registry|Solver'
+shared_between_threads='Beside|HeatWindows|Parallel|Thread|Registry|Solver'
 
 build() {  # preset, further arguments of cmake --build
   local preset=$1

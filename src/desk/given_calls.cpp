@@ -24,7 +24,8 @@ json given(Call& call) {
   if (given.surface.empty()) return nullptr;
   json sources = json::array();
   for (const std::filesystem::path& path : given.sources) {
-    const std::string text = io::read_bytes(path);
+    const io::FileBytes file(path);
+    const std::string_view text = file.view();
     sources.push_back(
         {{"name", path.filename().string()},
          {"bytes", call.put(reinterpret_cast<const unsigned char*>(text.data()), text.size())}});

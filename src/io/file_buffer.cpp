@@ -22,7 +22,7 @@ FileBuffer::FileBuffer(std::string path) : path_(std::move(path)) {
 std::streamsize FileBuffer::xsputn(const char* bytes, std::streamsize n) {
   const auto size = static_cast<std::size_t>(std::max<std::streamsize>(n, 0));
   if (size < much || thread_count() == 1) return std::filebuf::xsputn(bytes, n);
-  if (!places_) places_ = std::make_unique<FilePlaces>(path_.c_str());
+  if (!places_) places_ = std::make_unique<FilePlaces>(path_.c_str(), FilePlaces::For::writing);
   if (!places_->is_open() || pubsync() != 0) return std::filebuf::xsputn(bytes, n);
   const std::streamoff begin = pubseekoff(0, std::ios::cur, std::ios::out);
   if (begin < 0) return std::filebuf::xsputn(bytes, n);

@@ -230,9 +230,9 @@ Content read_content(const std::filesystem::path& path, const std::string& field
   const Format& format = format_to_read(extension_to_read(path), path.string(),
                                         {Kind::surface, Kind::cloud, Kind::volume, Kind::tets});
   if (format.read_any) {
-    const std::string bytes = read_bytes(path);
-    return read_with_hint(bytes, extension_to_read(path),
-                          [&] { return format.read_any(bytes, path.string(), field); });
+    const FileBytes bytes(path);
+    return read_with_hint(bytes.view(), extension_to_read(path),
+                          [&] { return format.read_any(bytes.view(), path.string(), field); });
   }
   if (format.read_volume) return read_volume(path, field);
   if (format.read_tets) return read_tets(path);

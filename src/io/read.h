@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "base/platform/file_places.h"
 #include "domain/mesh/surface_mesh.h"
 #include "littoral/polygon_soup.h"
 #include "littoral/report.h"
@@ -57,7 +59,27 @@ Sources read_sources_bytes(std::string_view bytes, const std::string& extension,
 /// segments has them joined head to tail. Throws InputError for a line through a non-finite vertex.
 Sources sources_from_lines(const PolygonSoup& soup, const std::string& name);
 
-/// Whole file; throws IoError naming it (missing, unreadable, a directory).
+/// A whole file, unpacked if its name ends in .gz.
+class FileBytes {
+ public:
+  /// Throws IoError naming the file (missing, unreadable, a directory), InputError if it is said to
+  /// be packed and is not.
+  explicit FileBytes(const std::filesystem::path& path);
+
+  std::string_view view() const {
+    return bytes_ ? std::string_view(bytes_.get(), size_) : std::string_view(text_);
+  }
+
+ private:
+  /// Of a file of so many bytes, or more or fewer by now; by all threads.
+  void read(FilePlaces& file, const std::filesystem::path& path, std::size_t size);
+
+  std::unique_ptr<char[]> bytes_;  // or null: text_
+  std::size_t size_ = 0;
+  std::string text_;
+};
+
+/// The same as a string, which is a copy.
 std::string read_bytes(const std::filesystem::path& path);
 
 /// How a file begins, and its size as far as that is known [bytes], both unpacked.

@@ -9,7 +9,11 @@
 #include <cstdio>
 #include <memory>
 #include <system_error>
+#include <utility>
+#include <vector>
 
+#include "base/index.h"
+#include "base/parallel.h"
 #include "base/platform/large_pages.h"
 #include "io/binary.h"
 #include "io/formats.h"
@@ -34,13 +38,9 @@ bool is_packed(const std::filesystem::path& path) {
   throw IoError("cannot read " + path.string() + ": " + why, "cannot-read");
 }
 
-/// size: of the file, where that is known.
-std::string all_of(std::FILE* file, const std::filesystem::path& path, std::uintmax_t size) {
+/// A stream up to its end.
+std::string all_of(std::FILE* file, const std::filesystem::path& path) {
   std::string bytes;
-  if (size > 0 && size < bytes.max_size()) {
-    bytes.reserve(std::size_t(size));
-    prefer_large_pages(bytes.data(), std::size_t(size));
-  }
   std::array<char, 1 << 16> block;
   while (const std::size_t n = std::fread(block.data(), 1, block.size(), file))
     bytes.append(block.data(), n);
@@ -53,7 +53,7 @@ std::uint32_t unpacked_size(std::string_view last) {
   return load_little<std::uint32_t>(last.data() + last.size() - sizeof(std::uint32_t));
 }
 
-std::string without_gzip(const std::string& packed, const std::string& name) {
+std::string without_gzip(std::string_view packed, const std::string& name) {
   const std::string hint = "; unpack it with gzip -d and name the result";
   constexpr std::size_t least = 18;  // bytes of head and end
   if (packed.size() < least || packed.substr(0, 2) != "\x1f\x8b")
@@ -84,11 +84,42 @@ std::string extension_named(const std::filesystem::path& path) {
   return lower_case(extension) == packed_mark ? path.stem().extension().string() : extension;
 }
 
-std::string read_bytes(const std::filesystem::path& path) {
+void FileBytes::read(FilePlaces& file, const std::filesystem::path& path, std::size_t size) {
+  constexpr std::size_t piece = 1 << 20;
+  bytes_.reset(new char[size]);
+  prefer_large_pages(bytes_.get(), size);
+  struct Read {
+    std::size_t bytes;
+    int error;
+  };
+  std::vector<Read> pieces((size + piece - 1) / piece);
+  parallel_for(size, piece, [&](std::size_t begin, std::size_t end) {
+    Read here{0, 0};
+    here.bytes = file.read(&bytes_[begin], end - begin, index(begin), here.error);
+    pieces[begin / piece] = here;
+  });
+  for (const Read& p : pieces) {
+    if (p.error != 0) cannot_read(path, std::generic_category().message(p.error));
+    size_ += p.bytes;
+    if (p.bytes < piece) break;  // the last one, or the file has become shorter
+  }
+  std::array<char, 1 << 16> block;
+  int error = 0;
+  while (const std::size_t n =
+             file.read(block.data(), block.size(), index(size_ + text_.size()), error))
+    text_.append(block.data(), n);
+  if (error != 0) cannot_read(path, std::generic_category().message(error));
+  if (text_.empty()) return;
+  text_.insert(0, bytes_.get(), size_);  // it has become longer
+  bytes_.reset();
+}
+
+FileBytes::FileBytes(const std::filesystem::path& path) {
   if (is_standard_stream(path)) {
-    static std::atomic<bool> read = false;  // not kept: it may be large
-    if (read.exchange(true)) cannot_read(path, "standard input was read before");
-    return all_of(stdin, path, 0);
+    static std::atomic<bool> was_read = false;  // not kept: it may be large
+    if (was_read.exchange(true)) cannot_read(path, "standard input was read before");
+    text_ = all_of(stdin, path);
+    return;
   }
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) cannot_read(path, "it is a directory");
@@ -98,8 +129,23 @@ std::string read_bytes(const std::filesystem::path& path) {
                           (path.string().starts_with("~")
                                ? "; '~' is the home folder only without quotes, in the shell"
                                : ""));
-  std::string bytes = all_of(file.get(), path, std::filesystem::file_size(path, ignored));
-  return is_packed(path) ? without_gzip(bytes, path.string()) : bytes;
+  std::error_code none;
+  std::optional<FilePlaces> places;  // of a plain file: to open a pipe again would wait for ever
+  const bool plain = std::filesystem::is_regular_file(path, none);
+  const std::uintmax_t size = plain ? std::filesystem::file_size(path, none) : 0;
+  if (plain && size > 0 && !none && size < text_.max_size())
+    places.emplace(path.c_str(), FilePlaces::For::reading);
+  if (places && places->is_open())
+    read(*places, path, std::size_t(size));
+  else
+    text_ = all_of(file.get(), path);
+  if (!is_packed(path)) return;
+  text_ = without_gzip(view(), path.string());
+  bytes_.reset();
+}
+
+std::string read_bytes(const std::filesystem::path& path) {
+  return std::string(FileBytes(path).view());
 }
 
 FirstBytes first_bytes(const std::filesystem::path& path, std::size_t most) {

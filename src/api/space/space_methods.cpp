@@ -47,7 +47,7 @@ TorusFit torus_fit(const Tori& options) {
   if (options.noisy) throw InputError("option noisy goes with fit closed", "options-conflict");
   if (options.weights.empty()) return TorusFit::by(LearnedFit::built_in());
   return TorusFit::by(std::make_shared<const LearnedFit>(
-      LearnedFit::parse(io::read_bytes(options.weights), options.weights)));
+      LearnedFit::parse(io::FileBytes(options.weights).view(), options.weights)));
 }
 
 template <class S>

@@ -7,7 +7,8 @@
 
 namespace littoral {
 
-FilePlaces::FilePlaces(const char* path) noexcept : file_(::open(path, O_WRONLY | O_CLOEXEC)) {}
+FilePlaces::FilePlaces(const char* path, For use) noexcept
+    : file_(::open(path, (use == For::reading ? O_RDONLY : O_WRONLY) | O_CLOEXEC)) {}
 
 FilePlaces::~FilePlaces() {
   if (file_ >= 0) ::close(file_);
@@ -24,6 +25,19 @@ int FilePlaces::write(const char* bytes, std::size_t n, long long place) noexcep
     n -= static_cast<std::size_t>(written);
   }
   return 0;
+}
+
+std::size_t FilePlaces::read(char* bytes, std::size_t n, long long place, int& error) noexcept {
+  std::size_t done = 0;
+  while (done < n) {
+    const auto got = ::pread(file_, bytes + done, n - done,
+                             static_cast<off_t>(place + static_cast<long long>(done)));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) error = errno;
+    if (got <= 0) break;
+    done += static_cast<std::size_t>(got);
+  }
+  return done;
 }
 
 }  // namespace littoral

@@ -35,7 +35,7 @@ io::PointTable read_queries(const QueryPoints& points) {
   const io::Format& format =
       io::format_to_read(io::extension_to_read(points.file), points.file,
                          {io::Kind::table, io::Kind::surface, io::Kind::cloud});
-  queries = format.read_table ? format.read_table(io::read_bytes(points.file), points.file)
+  queries = format.read_table ? format.read_table(io::FileBytes(points.file).view(), points.file)
                               : io::PointTable{io::read_surface(points.file).points};
   for (Eigen::Index i = 0; i < queries.points.rows(); ++i)
     if (!queries.points.row(i).allFinite())

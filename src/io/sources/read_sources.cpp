@@ -97,7 +97,7 @@ Sources read_sources_bytes(std::string_view bytes, const std::string& extension,
 
 Sources read_sources(const std::filesystem::path& path, const SurfaceMesh& mesh,
                      std::optional<int> index_base, Report& report) {
-  return read_sources_bytes(read_bytes(path), extension_to_read(path), path.string(), mesh,
+  return read_sources_bytes(FileBytes(path).view(), extension_to_read(path), path.string(), mesh,
                             index_base, report);
 }
 

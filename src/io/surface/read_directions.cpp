@@ -11,7 +11,9 @@
 namespace littoral::io {
 
 FaceDirections read_directions(const std::filesystem::path& path, int n_faces) {
-  const std::string bytes = read_bytes(path), name = path.string();
+  const FileBytes file(path);
+  const std::string_view bytes = file.view();
+  const std::string name = path.string();
   LineScanner scan(without_byte_order_mark(bytes, name), name, '#');
   FaceDirections out;
   std::vector<Vec3> rows;

@@ -17,8 +17,8 @@ PolygonSoup read_surface_bytes(std::string_view bytes, const std::string& extens
 PolygonSoup read_surface(const std::filesystem::path& path) {
   const std::string extension = extension_to_read(path);
   const Format& format = format_to_read(extension, path.string(), {Kind::surface, Kind::cloud});
-  if (format.read_beside) return format.read_beside(read_bytes(path), path);
-  return read_surface_bytes(read_bytes(path), extension, path.string());
+  if (format.read_beside) return format.read_beside(FileBytes(path).view(), path);
+  return read_surface_bytes(FileBytes(path).view(), extension, path.string());
 }
 
 }  // namespace littoral::io

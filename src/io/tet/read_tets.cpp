@@ -170,7 +170,7 @@ TetFile read_tets_bytes(std::string_view bytes, const std::string& extension,
 }
 
 TetFile read_tets(const std::filesystem::path& path) {
-  return read_tets_bytes(read_bytes(path), extension_to_read(path), path.string());
+  return read_tets_bytes(FileBytes(path).view(), extension_to_read(path), path.string());
 }
 
 }  // namespace littoral::io

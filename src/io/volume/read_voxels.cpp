@@ -106,7 +106,7 @@ Volume read_vol(std::string_view bytes, const std::string& name, const std::stri
 VoxelMask read_voxels(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
   const Format& format = format_to_read(extension_to_read(path), path.string(), {Kind::voxels});
-  if (format.read_voxels) return format.read_voxels(read_bytes(path), name);
+  if (format.read_voxels) return format.read_voxels(FileBytes(path).view(), name);
   const Volume volume = read_volume(path);
   if (!volume.values.allFinite())
     throw InputError(name + ": a mask needs finite values, 0 outside", "bad-file");

@@ -46,7 +46,7 @@ std::size_t chosen_field(const std::vector<std::string>& names, const std::strin
 }
 
 Volume read_volume(const std::filesystem::path& path, const std::string& field) {
-  return read_volume_bytes(read_bytes(path), extension_to_read(path), path.string(), field);
+  return read_volume_bytes(FileBytes(path).view(), extension_to_read(path), path.string(), field);
 }
 
 void write_volume(const std::filesystem::path& path, const Volume& volume,

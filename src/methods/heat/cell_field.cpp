@@ -9,15 +9,24 @@
 
 namespace littoral {
 
+namespace {
+constexpr std::size_t field_grain = 8192;
+}
+
 CellField no_field(Eigen::Index cells) {
-  return {VecX::Zero(2 * cells), VecX::Constant(cells, -infinity)};
+  CellField out{VecX(2 * cells), VecX(cells)};
+  parallel_for(std::size_t(cells), field_grain, [&](std::size_t begin, std::size_t end) {
+    const auto first = index(begin), n = index(end - begin);
+    out.Y.segment(2 * first, 2 * n).setZero();
+    out.log_length.segment(first, n).setConstant(-infinity);
+  });
+  return out;
 }
 
 CellField cell_field(const LinearMap& map, const ScaledField<double>& field) {
   // A cell has dofs in one layer or in two that follow each other: what it has in the first
   // and, in its units, in the second.
   constexpr double negligible = 1e-290;
-  constexpr std::size_t cell_grain = 8192;
   CellField out = no_field(map.rows / 2);
   const int n_layers = field.scale.size();
   double log_scale = 0;
@@ -26,7 +35,7 @@ CellField cell_field(const LinearMap& map, const ScaledField<double>& field) {
     log_scale += std::log(field.scale[p]);
     const bool last = p + 1 == n_layers;
     if (!last) next = map.apply(field.in_layer(p + 1));
-    parallel_for(out.log_length.size(), cell_grain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(out.log_length.size(), field_grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s) {
         const auto c = index(s);
         if (std::isfinite(out.log_length[c])) continue;
@@ -59,20 +68,24 @@ void restore_units(ScaledField<double>& field, const HeatSource<double>& b,
 }
 
 void take_longer(CellField& field, const CellField& other, double log_factor) {
-  for (Eigen::Index c = 0; c < field.log_length.size(); ++c) {
-    if (!(other.log_length[c] + log_factor > field.log_length[c])) continue;
-    field.log_length[c] = other.log_length[c] + log_factor;
-    field.Y.segment<2>(2 * c) = other.Y.segment<2>(2 * c);
-  }
+  parallel_for(field.log_length.size(), field_grain, [&](std::size_t begin, std::size_t end) {
+    for (Eigen::Index c = index(begin); c < index(end); ++c) {
+      if (!(other.log_length[c] + log_factor > field.log_length[c])) continue;
+      field.log_length[c] = other.log_length[c] + log_factor;
+      field.Y.segment<2>(2 * c) = other.Y.segment<2>(2 * c);
+    }
+  });
 }
 
 VecX normalize(VecX Y) {
-  for (Eigen::Index c = 0; c < Y.size() / 2; ++c) {
-    const double m = Y.segment<2>(2 * c).cwiseAbs().maxCoeff();
-    if (!(m > 0)) continue;
-    Y.segment<2>(2 * c) /= m;
-    Y.segment<2>(2 * c).normalize();
-  }
+  parallel_for(Y.size() / 2, field_grain, [&](std::size_t begin, std::size_t end) {
+    for (Eigen::Index c = index(begin); c < index(end); ++c) {
+      const double m = Y.segment<2>(2 * c).cwiseAbs().maxCoeff();
+      if (!(m > 0)) continue;
+      Y.segment<2>(2 * c) /= m;
+      Y.segment<2>(2 * c).normalize();
+    }
+  });
   return Y;
 }
 

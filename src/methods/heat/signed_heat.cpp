@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/index.h"
+#include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "littoral/error.h"
 #include "methods/heat/finalize.h"
@@ -193,8 +194,12 @@ VecX SignedHeatSolver::solve(const SourceSystem& system, const SignedHeat& optio
   const auto integrated = [&]() -> VecX {
     const Calculus& C = ops_->scalar;
     if (!near) return integrate(system, C.divergence(Y), options, poisson_stage, report);
-    const VecX b = C.divergence(Y - C.G.apply(system.d0));
-    return system.d0 + integrate(system, b, options, poisson_stage, report);
+    constexpr std::size_t number_grain = 1 << 15;
+    VecX rest = C.G.apply(system.d0);
+    parallel_for(rest.size(), number_grain, [&](std::size_t begin, std::size_t end) {
+      for (Eigen::Index k = index(begin); k < index(end); ++k) rest[k] = Y[k] - rest[k];
+    });
+    return system.d0 + integrate(system, C.divergence(rest), options, poisson_stage, report);
   };
   VecX phi = integrated();
   while (add_across_pinches(phi, reached, Y, poisson_stage, report)) phi = integrated();

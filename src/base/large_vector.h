@@ -1,5 +1,6 @@
 #pragma once
-// Vectors that lie in large pages of memory where the system has them.
+// Vectors that are not cleared before they are filled, and such that lie in large pages of memory
+// where the system has them.
 
 #include <algorithm>
 #include <cstddef>
@@ -13,9 +14,36 @@
 
 namespace littoral {
 
+/// Without a value, what is plain stays as it comes: the threads that fill it are to touch it.
+struct ConstructedAsItComes {
+  template <class U>
+  void construct(U* at) {
+    ::new (static_cast<void*>(at)) U;
+  }
+  template <class U, class... Args>
+  void construct(U* at, Args&&... args) {
+    std::construct_at(at, std::forward<Args>(args)...);
+  }
+};
+
+template <class T>
+struct UnclearedAllocator : ConstructedAsItComes {
+  using value_type = T;
+  UnclearedAllocator() = default;
+  template <class U>
+  UnclearedAllocator(const UnclearedAllocator<U>&) {}  // NOLINT(google-explicit-constructor)
+
+  T* allocate(std::size_t n) { return std::allocator<T>().allocate(n); }
+  void deallocate(T* begin, std::size_t n) { std::allocator<T>().deallocate(begin, n); }
+  bool operator==(const UnclearedAllocator&) const { return true; }
+};
+
+template <class T>
+using UnclearedVector = std::vector<T, UnclearedAllocator<T>>;
+
 /// What is large begins where a large page does.
 template <class T>
-struct LargePageAllocator {
+struct LargePageAllocator : ConstructedAsItComes {
   using value_type = T;
   LargePageAllocator() = default;
   template <class U>
@@ -25,15 +53,6 @@ struct LargePageAllocator {
     void* const begin = ::operator new(n * sizeof(T), alignment(n));
     if (is_large(n)) prefer_large_pages(begin, n * sizeof(T));
     return static_cast<T*>(begin);
-  }
-  /// Without a value, what is plain stays as it comes: the threads that fill it are to touch it.
-  template <class U>
-  void construct(U* at) {
-    ::new (static_cast<void*>(at)) U;
-  }
-  template <class U, class... Args>
-  void construct(U* at, Args&&... args) {
-    std::construct_at(at, std::forward<Args>(args)...);
   }
   void deallocate(T* begin, std::size_t n) { ::operator delete(begin, alignment(n)); }
   bool operator==(const LargePageAllocator&) const { return true; }

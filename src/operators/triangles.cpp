@@ -9,6 +9,7 @@
 #include "base/disjoint_sets.h"
 #include "base/fetch_ahead.h"
 #include "base/index.h"
+#include "base/large_vector.h"
 #include "base/now_and_then.h"
 #include "base/parallel.h"
 #include "operators/connection_laplacian.h"
@@ -60,8 +61,8 @@ class PerFace {
   PerFace(const IntrinsicTriangulation& T, Compute compute) : compute_(std::move(compute)) {
     constexpr int most_kept = 2'000'000;
     if (T.n_faces() > most_kept) return;
-    kept_.reset(new std::array<Parts, 3>[std::size_t(T.n_faces())]);
-    parallel_for(T.n_faces(), face_grain, [&](std::size_t begin, std::size_t end) {
+    kept_.resize(T.n_faces());
+    parallel_for(kept_.size(), face_grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t f = begin; f < end; ++f) {
         const std::array<Complex, 3> z = compute_(f);
         for (int k = 0; k < 3; ++k) kept_[f][k] = {z[k].real(), z[k].imag()};
@@ -69,18 +70,18 @@ class PerFace {
     });
   }
   std::array<Complex, 3> operator()(int f) const {
-    if (!kept_) return compute_(f);
+    if (kept_.empty()) return compute_(f);
     std::array<Complex, 3> z;
     for (int k = 0; k < 3; ++k) z[k] = {kept_[f][k].re, kept_[f][k].im};
     return z;
   }
 
  private:
-  struct Parts {  // not cleared before they are written
+  struct Parts {  // which, unlike a Complex, need not be cleared
     double re, im;
   };
   Compute compute_;
-  std::unique_ptr<std::array<Parts, 3>[]> kept_;
+  UnclearedVector<std::array<Parts, 3>> kept_;  // large pages are left to factors
 };
 
 template <class Compute>

@@ -181,8 +181,10 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<S
   std::size_t taken = 0;
   int of_window = -1;
   std::unique_ptr<HeatRegion<Scalar>> next;
+  std::optional<Beside> marching;  // through the next window, while parts of this one are solved
   const auto make_ready = [&](const Task& stop) {
     if (taken == waiting.size()) {
+      if (marching) marching->finish(stop);
       ++of_window;
       const int from = of_window * window, kept = from + window;
       march.reach(kept + overlap, stop);
@@ -203,17 +205,17 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<S
     task.checkpoint(double(here.start) / double(n));
     if (here.kept == here.start) return std::nullopt;  // steps longer than a window
     for (std::size_t k = here.start; k < here.kept; ++k) inside[order[k]] = 1;
+    marching.reset();
+    if (!here.last && taken < waiting.size())
+      marching.emplace([&march, strides = (number + 2) * window + overlap](const Task& stop) {
+        march.reach(strides, stop);
+      });
     double top = 0;
     for (bool is_last = false; !is_last;) {
       auto region = std::move(next);
       is_last = taken == waiting.size();
       std::optional<Beside> beside;
-      if (!is_last || !here.last)
-        beside.emplace([&](const Task& stop) {
-          make_ready(stop);
-          // Beside the last part the next window is divided.
-          if (taken < waiting.size()) march.reach((of_window + 2) * window + overlap, stop);
-        });
+      if (!is_last || !here.last) beside.emplace(make_ready);
       const std::vector<int>& blocks = region->blocks;
       Vector r = Vector::Zero(index(blocks.size()) * block_);
       if (number == 0)

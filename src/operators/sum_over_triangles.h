@@ -21,6 +21,24 @@ struct TriangleTerms {
   std::array<Scalar, 3> beside;  // of unknowns k and k + 1: in the row of the larger number
 };
 
+/// Calls add(f, find(f)) for one triangle after the other. Terms of many are found side by side,
+/// where add takes less time. Throws Cancelled.
+template <class Find, class Add>
+void add_in_order(Eigen::Index n_triangles, const Find& find, const Add& add,
+                  const Task& task = {}) {
+  constexpr Eigen::Index at_once = 1 << 16;
+  constexpr std::size_t triangle_grain = 4096;
+  std::vector<decltype(find(0))> batch(std::size_t(std::min(at_once, n_triangles)));
+  for (Eigen::Index first = 0; first < n_triangles; first += at_once) {
+    stop_if_cancelled(task);
+    const Eigen::Index count = std::min(at_once, n_triangles - first);
+    parallel_for(std::size_t(count), triangle_grain, [&](std::size_t i, std::size_t end) {
+      for (; i < end; ++i) batch[i] = find(static_cast<int>(first + Eigen::Index(i)));
+    });
+    for (Eigen::Index i = 0; i < count; ++i) add(static_cast<int>(first + i), batch[i]);
+  }
+}
+
 /// Lower triangle (n x n) of the sum of terms(f) over all triangles f, whose unknowns are the rows
 /// of `unknowns` (triangles x 3). Terms are computed side by side and added in the order of the
 /// triangles; beyond the matrix this takes the memory of its entries off the diagonal, once. Throws
@@ -28,8 +46,7 @@ struct TriangleTerms {
 template <class Scalar, class Terms>
 Eigen::SparseMatrix<Scalar> sum_over_triangles(int n, const Eigen::Ref<const MatX3i>& unknowns,
                                                const Terms& terms, const Task& task = {}) {
-  constexpr Eigen::Index at_once = 1 << 16;
-  constexpr std::size_t triangle_grain = 4096, column_grain = 1 << 15;
+  constexpr std::size_t column_grain = 1 << 15;
   Eigen::SparseMatrix<Scalar> A(n, n);
   int* begin = A.outerIndexPtr();
   std::fill(begin, begin + n + 1, 0);
@@ -57,32 +74,24 @@ Eigen::SparseMatrix<Scalar> sum_over_triangles(int n, const Eigen::Ref<const Mat
     row_of[begin[j]] = j;
     value[begin[j]] = 0;
   }
-  std::vector<TriangleTerms<Scalar>> batch;
-  for (Eigen::Index first = 0; first < unknowns.rows(); first += at_once) {
-    stop_if_cancelled(task);
-    const Eigen::Index count = std::min(at_once, unknowns.rows() - first);
-    batch.resize(count);
-    parallel_for(batch.size(), triangle_grain, [&](std::size_t i, std::size_t last) {
-      for (; i < last; ++i) batch[i] = terms(first + i);
-    });
-    for (Eigen::Index i = 0; i < count; ++i)
-      for (int k = 0; k < 3; ++k) {
-        if (const Eigen::Index next = first + i + ahead; next < unknowns.rows()) {
-          const int column = unknowns(next, k);
-          fetch_ahead(&value[begin[column]]);
-          fetch_ahead(&row_of[end[column]]);
-        }
-        const TriangleTerms<Scalar>& t = batch[i];
-        value[begin[unknowns(first + i, k)]] += t.diagonal[k];
-        const auto [column, row] = pair(first + i, k);
-        if (column == row) {
-          value[begin[column]] += t.beside[k];
-          continue;
-        }
-        row_of[end[column]] = row;
-        value[end[column]++] = t.beside[k];
+  const auto add = [&](int f, const TriangleTerms<Scalar>& t) {
+    for (int k = 0; k < 3; ++k) {
+      if (const Eigen::Index next = f + ahead; next < unknowns.rows()) {
+        const int column = unknowns(next, k);
+        fetch_ahead(&value[begin[column]]);
+        fetch_ahead(&row_of[end[column]]);
       }
-  }
+      value[begin[unknowns(f, k)]] += t.diagonal[k];
+      const auto [column, row] = pair(f, k);
+      if (column == row) {
+        value[begin[column]] += t.beside[k];
+        continue;
+      }
+      row_of[end[column]] = row;
+      value[end[column]++] = t.beside[k];
+    }
+  };
+  add_in_order(unknowns.rows(), terms, add, task);
   stop_if_cancelled(task);
   // Sorts the columns and adds up what is in the same place, in the order it came.
   parallel_for(n, column_grain, [&](std::size_t j, std::size_t last) {

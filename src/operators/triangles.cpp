@@ -139,24 +139,17 @@ LinearMap gradient(Triangulation T) {
     return g;
   };
   G.adjoint = [T, hats](const VecX& g) {
-    // Terms of many faces at once are found side by side, and added one after the other.
-    constexpr std::size_t at_once = 1 << 16;
-    const auto n = std::size_t(T->n_faces());
     VecX u = VecX::Zero(T->n_vertices);
-    std::vector<std::array<double, 3>> terms(std::min(n, at_once));
-    for (std::size_t first = 0; first < n; first += at_once) {
-      const std::size_t count = std::min(at_once, n - first);
-      parallel_for(count, face_grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          const int f = static_cast<int>(first + i);
-          const auto hat = (*hats)(f);
-          for (int k = 0; k < 3; ++k)
-            terms[i][k] = hat[k].real() * g[2 * f] + hat[k].imag() * g[2 * f + 1];
-        }
-      });
-      for (std::size_t i = 0; i < count; ++i)
-        for (int k = 0; k < 3; ++k) u[T->faces(static_cast<int>(first + i), k)] += terms[i][k];
-    }
+    const auto find = [&](int f) {
+      const auto hat = (*hats)(f);
+      std::array<double, 3> terms;
+      for (int k = 0; k < 3; ++k)
+        terms[k] = hat[k].real() * g[2 * f] + hat[k].imag() * g[2 * f + 1];
+      return terms;
+    };
+    add_in_order(T->n_faces(), find, [&](int f, const std::array<double, 3>& terms) {
+      for (int k = 0; k < 3; ++k) u[T->faces(f, k)] += terms[k];
+    });
     return u;
   };
   G.matrix = [T] { return gradient_matrix(*T); };

@@ -11,7 +11,7 @@ namespace littoral::desk {
 namespace {
 
 /// The 64 bits of FNV-1a, by which a link knows its file.
-std::string content_hash(const std::string& bytes) {
+std::string content_hash(std::string_view bytes) {
   std::uint64_t hash = 0xcbf29ce484222325;
   for (const unsigned char byte : bytes) hash = (hash ^ byte) * 0x100000001b3;
   std::string out(16, '0');
@@ -31,7 +31,7 @@ json given(Call& call) {
          {"bytes", call.put(reinterpret_cast<const unsigned char*>(text.data()), text.size())}});
   }
   return {{"name", given.surface.filename().string()},
-          {"hash", content_hash(io::read_bytes(given.surface))},
+          {"hash", content_hash(io::FileBytes(given.surface).view())},
           {"sources", sources}};
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cstdint>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -14,7 +13,6 @@
 
 #include "base/parallel.h"
 #include "base/parallel_forest.h"
-#include "base/platform/large_pages.h"
 #include "dense_solves.h"
 #include "heat_helpers.h"
 #include "littoral/error.h"
@@ -158,19 +156,6 @@ TEST(Cholesky, WhatIsIndefiniteByRoundOffIsRaisedByTheLeastShareThatHelps) {
   const VecX x = made.factor.solve(VecX(Vec3(1, 1, 4)));  // (1, 1) / (2 + s + d), 1 / (1 + s)
   EXPECT_LE((x - Vec3(0.5, 0.5, 1)).cwiseAbs().maxCoeff(), 2e-8);
   EXPECT_THROW(raised(1e-7), SolveError);
-}
-
-TEST(LargePages, AreZeroWhereThereAreAny) {
-  EXPECT_EQ(large_pages(1000), nullptr);
-  const std::size_t n = (std::size_t(5) << 20) + 8;
-  for (int round = 0; round < 2; ++round) {  // used memory is not handed out again
-    const auto memory = large_pages(n);
-    if (!memory) GTEST_SKIP() << "this system has none";
-    char* const bytes = static_cast<char*>(memory.get());
-    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(bytes) % (1 << 21), 0U);
-    EXPECT_EQ(std::count(bytes, bytes + n, 0), std::ptrdiff_t(n));
-    std::fill(bytes, bytes + n, 1);
-  }
 }
 
 TEST(SymmetricRows, ResidualsAreThoseOfTheWholeMatrix) {

@@ -16,8 +16,8 @@ void prefer_large_pages(void* begin, std::size_t bytes);
 /// before where memory is kept, or zero.
 std::shared_ptr<void> large_pages(std::size_t bytes);
 
-/// While one lives, its thread hands out again what it is given back: pages of the system take
-/// longer to come than to be zeroed.
+/// While any lives, what is given back is handed out again: pages of the system take longer to come
+/// than to be zeroed.
 class KeepLargePages {
  public:
   KeepLargePages();

@@ -258,5 +258,21 @@ TEST(Beside, EndsBeforeItIsGone) {
   set_thread_count(0);
 }
 
+TEST(Task, SilentOnesReportNothingAndAreCancelledWithTheOther) {
+  const CancelToken cancel;
+  int reports = 0;
+  const Task task(cancel, [&](double, const std::string&) { ++reports; });
+  const Task silent = task.silent();
+  silent.checkpoint(0.5);
+  EXPECT_EQ(reports, 0);
+  task.checkpoint(0.5);
+  EXPECT_EQ(reports, 1);
+  EXPECT_FALSE(silent.cancelled());
+  cancel.cancel();
+  EXPECT_TRUE(silent.cancelled());
+  EXPECT_THROW(silent.checkpoint(), Cancelled);
+  EXPECT_NO_THROW(Task().silent().checkpoint());
+}
+
 }  // namespace
 }  // namespace littoral

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <random>
 
+#include "base/parallel.h"
 #include "heat_helpers.h"
 #include "solve/direct/hermitian_rows.h"
 #include "solve/heat/heat_system.h"
@@ -285,6 +287,34 @@ TEST(HeatWindows, DisconnectedPartsOfDifferentStrengthAreAllReached) {
   const auto p = test::problem(mesh, test::vertex_points({0, n + 7}), report);
   const Both both = solve_both(p.ops->vector, p.terms.vectors(p.ops->vector.n), 1);
   EXPECT_LE(difference(both.windows, both.passes).second, 1e-12);
+}
+
+TEST(HeatWindows, PartsSideBySideGiveTheSameBitsForAnyNumberOfThreads) {
+  // From the middle heat goes both ways: two parts of a window, each half as long as the first one.
+  PolygonSoup strip = test::grid_soup(700, 4);
+  strip.points.col(0) *= 700 / 4;
+  const SurfaceMesh mesh(strip);
+  Report report;
+  const auto p = test::problem(mesh, test::vertex_points({350}), report);
+  const VectorDiffusion& V = p.ops->vector;
+  const auto A = std::make_shared<const SpMatC>(heat_matrix(V, 0.25 * V.h * V.h));
+  const HeatWindows<Complex> windows(rows_of<Complex>(A, 1), V.M, dissection(*A, {}));
+  const auto source = nonzero_blocks(as_complex(p.terms.vectors(V.n)), 1);
+  std::optional<ScaledField<Complex>> one;
+  for (const int threads : {1, 2, 3}) {
+    set_thread_count(threads);
+    auto field = windows.solve(source, V.piece, {}, report);
+    set_thread_count(0);
+    ASSERT_TRUE(field.has_value());
+    if (!one)
+      one = std::move(field);
+    else {
+      EXPECT_TRUE(field->x == one->x) << threads;
+      EXPECT_EQ(field->layer, one->layer) << threads;
+      EXPECT_EQ(field->scale, one->scale) << threads;
+    }
+  }
+  EXPECT_GE(report.iterations.back().second, 5);
 }
 
 TEST(HeatWindows, HeldVectorsAreHeld) {

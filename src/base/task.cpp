@@ -43,6 +43,8 @@ void Task::checkpoint(double fraction) const {
 
 bool Task::cancelled() const { return shared_ && shared_->cancel.cancelled(); }
 
+Task Task::silent() const { return shared_ ? Task(shared_->cancel) : Task(); }
+
 namespace {
 /// Threads whose callers have gone; joined at exit so that no library is torn down under them.
 class Abandoned {

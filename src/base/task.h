@@ -31,6 +31,9 @@ class Task {
 
   bool cancelled() const;
 
+  /// Is cancelled as this one is and reports nothing: for work that others than the caller do.
+  Task silent() const;
+
  private:
   struct Shared {
     CancelToken cancel;

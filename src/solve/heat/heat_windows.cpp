@@ -52,6 +52,19 @@ ScaledField<Scalar> with_fewer_layers(ScaledField<Scalar> field, int block) {
   return field;
 }
 
+/// How many parts of a window, the largest first, are solved one by one, each by all threads. The
+/// others are solved side by side, a thread each, as some steps of a factorization are work for one
+/// thread: where that keeps nearly all threads busy and takes hardly more memory than the largest
+/// part so far.
+std::size_t solved_alone(const std::vector<std::vector<int>>& parts, std::size_t largest) {
+  const std::size_t threads = std::size_t(thread_count());
+  std::size_t rest = 0, k = 0;
+  for (const std::vector<int>& part : parts) rest += part.size();
+  for (; k < parts.size(); rest -= parts[k++].size())
+    if (4 * threads * parts[k].size() <= 5 * std::min(largest, rest)) break;
+  return k;
+}
+
 }  // namespace
 
 template <class Scalar>
@@ -167,62 +180,48 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<S
                                                               OutwardMarch<Scalar>& march,
                                                               int overlap, const Task& task) const {
   const std::size_t n = position_.size();
-  ScaledField<Scalar> field{Vector::Zero(index(n) * block_), std::vector<int>(n, -1), {}};
-  std::vector<int> local(n, -1);
+  ScaledField<Scalar> field{Vector(index(n) * block_), std::vector<int>(n, -1), {}};
+  std::vector<int> local(n, -1), local_of_next = local;
   std::vector<char> known(n, 0), inside(n, 0);
   const int* const order = march.blocks();
-  // How far a window reaches and its parts do not depend on the window before: the next one is made
-  // ready beside.
   struct Window {
+    int number;
     std::size_t start, kept, end;  // in the order
     bool last;
-  } ready{};
-  std::vector<std::vector<int>> waiting;  // of a window
-  std::size_t taken = 0;
-  int of_window = -1;
-  std::unique_ptr<HeatRegion<Scalar>> next;
-  std::optional<Beside> marching;  // through the next window, while parts of this one are solved
-  const auto make_ready = [&](const Task& stop) {
-    if (taken == waiting.size()) {
-      if (marching) marching->finish(stop);
-      ++of_window;
-      const int from = of_window * window, kept = from + window;
-      march.reach(kept + overlap, stop);
-      ready = {march.nearer_than(from), march.nearer_than(kept), march.nearer_than(kept + overlap),
-               false};
-      ready.last = march.ended() && ready.kept == ready.end;
-      waiting = parts({order + ready.start, ready.end - ready.start}, local);
-      taken = 0;
-    }
-    if (taken < waiting.size())
-      next = std::make_unique<HeatRegion<Scalar>>(*A_, std::move(waiting[taken++]), local, stop);
+    std::vector<std::vector<int>> parts;  // the largest first
+  } next{-1, 0, 0, 0, false, {}};
+  const auto make_next = [&](const Task& stop) {
+    const int from = ++next.number * window, kept = from + window;
+    march.reach(kept + overlap, stop);
+    next.start = march.nearer_than(from);
+    next.kept = march.nearer_than(kept);
+    next.end = march.nearer_than(kept + overlap);
+    next.last = march.ended() && next.kept == next.end;
+    next.parts = parts({order + next.start, next.end - next.start}, local_of_next);
+    std::stable_sort(next.parts.begin(), next.parts.end(),
+                     [](const auto& p, const auto& q) { return p.size() > q.size(); });
   };
-  make_ready(task);
-  std::size_t before = 0;
-  for (bool more = ready.end > 0; more;) {
-    const Window here = ready;
-    const int number = of_window;
+  make_next(task);
+  std::size_t before = 0, largest = 0;
+  for (bool more = next.end > 0; more;) {
+    Window here = std::move(next);
     task.checkpoint(double(here.start) / double(n));
     if (here.kept == here.start) return std::nullopt;  // steps longer than a window
     for (std::size_t k = here.start; k < here.kept; ++k) inside[order[k]] = 1;
-    marching.reset();
-    if (!here.last && taken < waiting.size())
-      marching.emplace([&march, strides = (number + 2) * window + overlap](const Task& stop) {
-        march.reach(strides, stop);
-      });
-    double top = 0;
-    for (bool is_last = false; !is_last;) {
-      auto region = std::move(next);
-      is_last = taken == waiting.size();
-      std::optional<Beside> beside;
-      if (!is_last || !here.last) beside.emplace(make_ready);
-      const std::vector<int>& blocks = region->blocks;
+    // How far a window reaches and its parts do not depend on the window before: the next one is
+    // made ready beside.
+    std::optional<Beside> beside;
+    if (!here.last) beside.emplace(make_next);
+    // Keeps what is inside of a part; returns the largest there.
+    const auto solve_part = [&](std::vector<int> own, const Task& stop) {
+      const HeatRegion<Scalar> region(*A_, std::move(own), local, stop);
+      const std::vector<int>& blocks = region.blocks;
       Vector r = Vector::Zero(index(blocks.size()) * block_);
-      if (number == 0)
+      if (here.number == 0)
         for (std::size_t k = 0; k < blocks.size(); ++k)
           if (const Scalar* value = b.at(blocks[k]))
             for (int c = 0; c < block_; ++c) r[index(k) * block_ + c] = value[c];
-      const Vector z = region->solve(*A_, known, field.x, std::move(r), task);
+      const Vector z = region.solve(*A_, known, field.x, std::move(r), stop);
       const auto keep = [&](std::size_t begin, std::size_t end) {
         double top_here = 0;
         for (std::size_t k = begin; k < end; ++k) {
@@ -233,10 +232,18 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<S
         }
         return top_here;
       };
-      top = of_pieces(blocks.size(), window_grain, top, keep, Larger());
-      region.reset();
-      if (beside) beside->finish(task);
-    }
+      return of_pieces(blocks.size(), window_grain, 0.0, keep, Larger());
+    };
+    largest = std::max(largest, here.parts.front().size());
+    const std::size_t alone = solved_alone(here.parts, largest);
+    double top = 0;
+    for (std::size_t p = 0; p < alone; ++p)
+      top = std::max(top, solve_part(std::move(here.parts[p]), task));
+    const auto side_by_side = [&](std::size_t p, std::size_t) {
+      return solve_part(std::move(here.parts[alone + p]), task.silent());
+    };
+    top = of_pieces(here.parts.size() - alone, 1, top, side_by_side, Larger());
+    if (beside) beside->finish(task);
     if (!(top > 0) || !std::isfinite(top)) return std::nullopt;
     const auto scale = [&](std::size_t begin, std::size_t end) {
       std::size_t too_small = 0;
@@ -244,7 +251,7 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<S
         const Eigen::Index i = order[k];
         if (!(block_magnitude(field.x, i, block_) > negligible * top)) ++too_small;
         field.x.segment(i * block_, block_) /= top;
-        field.layer[i] = number;
+        field.layer[i] = here.number;
         known[i] = 1;
       }
       return too_small;
@@ -255,6 +262,11 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<S
     for (; before < here.start; ++before) known[order[before]] = 0;
     more = !here.last;
   }
+  const auto clear = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (field.layer[i] < 0) field.x.segment(index(i) * block_, block_).setZero();
+  };
+  parallel_for(n, window_grain, clear);  // where heat does not come to
   return field;
 }
 

@@ -7,9 +7,12 @@
 #include <vector>
 
 #include "base/index.h"
+#include "base/parallel.h"
 #include "littoral/types.h"
 
 namespace littoral {
+
+constexpr std::size_t block_grain = 1 << 15;  // blocks, for loops over all of a field
 
 /// A decaying solution in layers, each at a scale of its own: block i is scale[0] * ... *
 /// scale[layer[i]] * x_i. Neighbouring blocks are at most one layer apart. Layer -1: no source
@@ -22,12 +25,17 @@ struct ScaledField {
 
   /// The entries of layer p, in its units; 0 elsewhere.
   Eigen::Matrix<Scalar, Eigen::Dynamic, 1> in_layer(int p) const {
-    Eigen::Matrix<Scalar, Eigen::Dynamic, 1> y = decltype(y)::Zero(x.size());
+    Eigen::Matrix<Scalar, Eigen::Dynamic, 1> y(x.size());
     const auto block = x.size() / std::max<Eigen::Index>(1, index(layer.size()));
-    for (std::size_t i = 0; i < layer.size(); ++i) {
-      const auto at = index(i) * block;
-      if (layer[i] == p) y.segment(at, block) = x.segment(at, block);
-    }
+    parallel_for(layer.size(), block_grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto at = index(i) * block;
+        if (layer[i] == p)
+          y.segment(at, block) = x.segment(at, block);
+        else
+          y.segment(at, block).setZero();
+      }
+    });
     return y;
   }
 };
@@ -73,8 +81,6 @@ HeatSource<typename Vector::Scalar> nonzero_blocks(const Vector& b, int block) {
         b.segment(Eigen::Index{out.blocks[s]} * block, block);
   return out;
 }
-
-constexpr std::size_t block_grain = 1 << 15;  // blocks, for loops over all of a field
 
 /// Largest entry of b in each piece; `piece` names the piece of every block, -1: none.
 template <class Scalar>

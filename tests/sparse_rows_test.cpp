@@ -44,6 +44,9 @@ TEST(SparseRows, SymmetricFromTheirLowerTriangle) {
   const MatX full = MatX(SpMat(lower.selfadjointView<Eigen::Lower>()));
   const SpRows rows = full_rows(lower);
   EXPECT_EQ(MatX(rows), full);
+  EXPECT_EQ(MatX(copied(lower)), MatX(lower));
+  EXPECT_EQ(copied(lower).nonZeros(), lower.nonZeros());
+  EXPECT_EQ(copied(SpMat(3, 3)).nonZeros(), 0);
   for (int i = 0; i < 15; ++i) {
     int before = -1;
     for (SpRows::InnerIterator it(rows, i); it; ++it) {

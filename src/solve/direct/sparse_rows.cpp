@@ -17,12 +17,24 @@ namespace {
 constexpr std::size_t row_grain = 1 << 14;
 constexpr std::size_t rows_of_piece = 1 << 11;  // where a piece needs nothing of its own
 constexpr Eigen::Index entries_ahead = 16;
+constexpr std::size_t entries_of_piece = 1 << 18;
 
 void counts_to_begins(int* begin, Eigen::Index rows) {
   std::partial_sum(begin, begin + rows + 1, begin);
 }
 
 }  // namespace
+
+SpMat copied(const SpMat& A) {
+  SpMat out(A.rows(), A.cols());
+  std::copy_n(A.outerIndexPtr(), A.outerSize() + 1, out.outerIndexPtr());
+  out.resizeNonZeros(A.nonZeros());
+  parallel_for(std::size_t(A.nonZeros()), entries_of_piece, [&](std::size_t e, std::size_t end) {
+    std::copy(A.innerIndexPtr() + e, A.innerIndexPtr() + end, out.innerIndexPtr() + e);
+    std::copy(A.valuePtr() + e, A.valuePtr() + end, out.valuePtr() + e);
+  });
+  return out;
+}
 
 SpRows full_rows(const SpMat& lower) {
   const Eigen::Index n = lower.cols();

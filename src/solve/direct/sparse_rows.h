@@ -14,6 +14,9 @@ namespace littoral {
 
 using SpRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
+/// The same matrix, which is compressed.
+SpMat copied(const SpMat& A);
+
 /// All of a symmetric matrix given by its lower triangle.
 SpRows full_rows(const SpMat& lower);
 

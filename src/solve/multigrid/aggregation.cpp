@@ -11,9 +11,14 @@ namespace {
 
 constexpr std::size_t aggregated_rows = 1 << 15;
 
-/// Which entries of A are strong couplings.
+/// Which entries of A are strong couplings. Those of a row may be in any order.
 std::vector<char> strong_couplings(const SpRows& A, double strength) {
-  const VecX d = A.diagonal();
+  VecX d = VecX::Zero(A.rows());
+  parallel_for(std::size_t(A.rows()), aggregated_rows, [&](std::size_t first, std::size_t last) {
+    for (int i = int(first); i < int(last); ++i)
+      for (SpRows::InnerIterator it(A, i); it; ++it)
+        if (it.col() == i) d[i] = it.value();
+  });
   std::vector<char> strong(A.nonZeros(), 0);
   parallel_for(std::size_t(A.rows()), aggregated_rows, [&](std::size_t first, std::size_t last) {
     for (int i = int(first); i < int(last); ++i)
@@ -54,15 +59,17 @@ int find_groups(const SpRows& A, const std::vector<char>& strong, std::vector<in
   }
   // The others join the group that they are coupled to most, of those made so far.
   std::vector<int> joined(group);
-  for (int i = 0; i < n; ++i) {
-    if (!checked(i)) continue;
-    double most = 0;
-    for (int e = begin[i]; e < begin[i + 1]; ++e)
-      if (strong[e] && group[to[e]] >= 0 && -A.valuePtr()[e] > most) {
-        most = -A.valuePtr()[e];
-        joined[i] = group[to[e]];
-      }
-  }
+  parallel_for(std::size_t(n), aggregated_rows, [&](std::size_t first, std::size_t last) {
+    for (int i = int(first); i < int(last); ++i) {
+      if (group[i] >= 0) continue;
+      double most = 0;
+      for (int e = begin[i]; e < begin[i + 1]; ++e)
+        if (strong[e] && group[to[e]] >= 0 && -A.valuePtr()[e] > most) {
+          most = -A.valuePtr()[e];
+          joined[i] = group[to[e]];
+        }
+    }
+  });
   group = std::move(joined);
   // What is left is strongly coupled to nothing that has a group.
   for (int i = 0; i < n; ++i) {

@@ -44,7 +44,7 @@ std::shared_ptr<const SpMat> with_diagonal(std::shared_ptr<const SpMat> L) {
 
 /// L with `d` added to the diagonal at the unknowns `at`.
 SpMat lifted(const SpMat& L, const std::vector<int>& at, double d) {
-  SpMat K = L;
+  SpMat K = copied(L);
   for (const int i : at) K.valuePtr()[K.outerIndexPtr()[i]] += d;
   return K;
 }
@@ -194,8 +194,8 @@ DefiniteSystem Poisson::penalized(const SpMat& A, const VecX& weight,
     return DefiniteSystem::by_multigrid(
         [L = L_, at, d = mean_diagonal_, A, weight]() -> SpMat {
           SpMat K = lifted(*L, at, d);
-          if (add_rows_in_place(K, A, weight)) return K;
-          return with_rows(K, A, weight);
+          if (!add_rows_in_place(K, A, weight)) with_rows(K, A, weight).swap(K);
+          return K;
         },
         unknowns_of(A));
   SpMat K = pinned(at);

@@ -42,7 +42,7 @@ class HeatWindows {
   Ordering order() const;  // of elimination, of the blocks
 
  private:
-  /// The connected parts of a region, which are solved one by one; each in the order of
+  /// The connected parts of a region, each of which is a problem of its own, in the order of
   /// elimination. local: per block -1, which it is again afterwards.
   std::vector<std::vector<int>> parts(std::span<const int> blocks, std::vector<int>& local) const;
   std::optional<ScaledField<Scalar>> solve(const HeatSource<Scalar>& b, OutwardMarch<Scalar>& march,

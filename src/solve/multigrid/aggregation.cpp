@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/now_and_then.h"
 #include "base/parallel.h"
 #include "solve/multigrid/multigrid.h"
 
@@ -60,6 +61,7 @@ int find_groups(const SpRows& A, const std::vector<char>& strong, std::vector<in
   // The others join the group that they are coupled to most, of those made so far.
   std::vector<int> joined(group);
   parallel_for(std::size_t(n), aggregated_rows, [&](std::size_t first, std::size_t last) {
+    stop_if_cancelled(task);
     for (int i = int(first); i < int(last); ++i) {
       if (group[i] >= 0) continue;
       double most = 0;
